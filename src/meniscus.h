@@ -183,6 +183,10 @@ typedef enum mns_color_map {
 MNS_API const char *mns_color_map_name(mns_color_map map);
 MNS_API mns_color_map mns_color_map_by_name(const char *name); /* MNS_COLOR_MAP_COUNT: no such map */
 
+/* A colour as people write it: "R,G,B" or "R,G,B,A" in [0, 1], "#rrggbb", "#rrggbbaa" or "transparent", as sRGB and alpha (1
+ * where none is written). Errors: USAGE. */
+MNS_API mns_status mns_color_parse(const char *text, double rgba[4], mns_error *error);
+
 enum { /* bits of mns_look.set: the members below that are given */
     MNS_LOOK_COLOR = 1,
     MNS_LOOK_BACKGROUND = 2,
@@ -399,7 +403,7 @@ typedef struct mns_scene {
 } mns_scene;
 
 /* Loads a JSON scene; keys: README.md. Errors: IO, INPUT (syntax with line and column; an unknown key or a wrong type with its
- * path, "look.light.kind"), MEMORY. */
+ * path, "light.kind"), MEMORY. */
 MNS_API mns_status mns_scene_load(const char *path, mns_scene **scene, mns_error *error);
 MNS_API void mns_scene_destroy(mns_scene *scene);
 
