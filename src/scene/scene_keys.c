@@ -47,8 +47,7 @@ static mns_status read_object(scene_reader *r, const char *key, const json_t *va
     return MNS_OK;
 }
 
-/* ---- Inputs
- * -------------------------------------------------------------------------------------------------- */
+/* ---- Inputs ----------------------------------------------------------------------------------------- */
 
 static mns_status read_inputs(scene_reader *r, const char *key, const json_t *value, void *target)
 {
@@ -85,54 +84,45 @@ static mns_status read_input_list(scene_reader *r, const char *key, const json_t
     return read_inputs(r, key, value, target);
 }
 
-/* ---- The tables
- * ---------------------------------------------------------------------------------------------- */
+/* ---- The tables ------------------------------------------------------------------------------------- */
 
 /* The value tells whether it is given, or a bit of `set` does. */
-#define KEY(name, read, member)                                                                              \
-    {                                                                                                        \
-        name, read, offsetof(mns_scene, member), 0, 0                                                        \
-    }
+#define KEY(name, read, member) name, read, offsetof(mns_scene, member), 0, 0
 #define KEY_SET(name, read, member, set, bit)                                                                \
-    {                                                                                                        \
-        name, read, offsetof(mns_scene, member), offsetof(mns_scene, set), bit                               \
-    }
+    name, read, offsetof(mns_scene, member), offsetof(mns_scene, set), bit
 /* A part that knows its place in the scene itself. */
-#define PART(name, read)                                                                                     \
-    {                                                                                                        \
-        name, read, 0, 0, 0                                                                                  \
-    }
+#define PART(name, read) name, read, 0, 0, 0
 
 static const scene_key FIELD_KEYS[] = {
-    KEY("kernel", scene_read_kernel, field.kernel),
-    KEY("iso", scene_read_positive, field.iso),
-    KEY("radius", scene_read_positive, field.radius),
-    KEY("radius_scale", scene_read_positive, field.radius_scale),
+    {KEY("kernel", scene_read_kernel, field.kernel)},
+    {KEY("iso", scene_read_positive, field.iso)},
+    {KEY("radius", scene_read_positive, field.radius)},
+    {KEY("radius_scale", scene_read_positive, field.radius_scale)},
 };
 
 static const scene_key CAMERA_KEYS[] = {
-    KEY_SET("eye", scene_read_point, view.eye, view.set, MNS_VIEW_EYE),
-    KEY_SET("look_at", scene_read_point, view.look_at, view.set, MNS_VIEW_LOOK_AT),
-    KEY("up", scene_read_direction, view.up),
-    KEY("fov", scene_read_angle, view.fov),
+    {KEY_SET("eye", scene_read_point, view.eye, view.set, MNS_VIEW_EYE)},
+    {KEY_SET("look_at", scene_read_point, view.look_at, view.set, MNS_VIEW_LOOK_AT)},
+    {KEY("up", scene_read_direction, view.up)},
+    {KEY("fov", scene_read_angle, view.fov)},
 };
 
 static const scene_key LIGHT_KEYS[] = {
-    KEY("kind", scene_read_light_kind, look.light),
-    KEY("direction", scene_read_direction, look.light_direction),
+    {KEY("kind", scene_read_light_kind, look.light)},
+    {KEY("direction", scene_read_direction, look.light_direction)},
 };
 
 static const scene_key MATERIAL_KEYS[] = {
-    KEY_SET("color", scene_read_color, look.color, look.set, MNS_LOOK_COLOR),
-    KEY("color_by", scene_read_color_by, look.color_by),
-    KEY("color_map", scene_read_color_map, look.color_map),
-    KEY_SET("range", scene_read_range, look.range, look.set, MNS_LOOK_RANGE),
-    KEY_SET("ambient", scene_read_weight, look.ambient, look.set, MNS_LOOK_AMBIENT),
-    KEY_SET("diffuse", scene_read_weight, look.diffuse, look.set, MNS_LOOK_DIFFUSE),
-    KEY_SET("specular", scene_read_weight, look.specular, look.set, MNS_LOOK_SPECULAR),
-    KEY("shininess", scene_read_positive, look.shininess),
-    KEY("shading", scene_read_shading, look.shading),
-    KEY("cel_bands", scene_read_bands, look.cel_bands),
+    {KEY_SET("color", scene_read_color, look.color, look.set, MNS_LOOK_COLOR)},
+    {KEY("color_by", scene_read_color_by, look.color_by)},
+    {KEY("color_map", scene_read_color_map, look.color_map)},
+    {KEY_SET("range", scene_read_range, look.range, look.set, MNS_LOOK_RANGE)},
+    {KEY_SET("ambient", scene_read_weight, look.ambient, look.set, MNS_LOOK_AMBIENT)},
+    {KEY_SET("diffuse", scene_read_weight, look.diffuse, look.set, MNS_LOOK_DIFFUSE)},
+    {KEY_SET("specular", scene_read_weight, look.specular, look.set, MNS_LOOK_SPECULAR)},
+    {KEY("shininess", scene_read_positive, look.shininess)},
+    {KEY("shading", scene_read_shading, look.shading)},
+    {KEY("cel_bands", scene_read_bands, look.cel_bands)},
 };
 
 static mns_status read_field(scene_reader *r, const char *key, const json_t *value, void *target)
@@ -164,14 +154,14 @@ static mns_status read_material(scene_reader *r, const char *key, const json_t *
 }
 
 static const scene_key SCENE_KEYS[] = {
-    PART("field", read_field),
-    PART("input", read_input),
-    PART("inputs", read_input_list),
-    PART("camera", read_camera),
-    PART("light", read_light),
-    PART("material", read_material),
-    KEY_SET("background", scene_read_background, look.background, look.set, MNS_LOOK_BACKGROUND),
-    PART("size", scene_read_size),
+    {PART("field", read_field)},
+    {PART("input", read_input)},
+    {PART("inputs", read_input_list)},
+    {PART("camera", read_camera)},
+    {PART("light", read_light)},
+    {PART("material", read_material)},
+    {KEY_SET("background", scene_read_background, look.background, look.set, MNS_LOOK_BACKGROUND)},
+    {PART("size", scene_read_size)},
 };
 
 mns_status scene_read_keys(const json_t *root, const char *path, scene_file *file, mns_error *error)
