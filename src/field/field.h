@@ -31,6 +31,9 @@ typedef struct particles {
 
 void particles_free(particles *p); /* frees the members, zeroes *p */
 
+/* Fills the column's min and max from its `count` values (0, 0 where there are none). */
+void particles_column_range(particles_column *column, size_t count);
+
 struct mns_field {
     particles p;             /* p.radius holds R, or NULL where all are uniform_radius; never radius_is_surface */
     double uniform_radius;   /* where p.radius is NULL */
@@ -48,9 +51,12 @@ struct mns_field {
 mns_status field_from_particles(particles *p, const mns_input_options *options, const char *radius_source,
                                 mns_field **field, mns_error *error);
 
-/* Median distance from a ball to its nearest neighbour, zeros excluded; 0 where there is none (fewer than two
- * distinct centres). Parallel, by a uniform grid; exact, not sampled. Errors: MEMORY. */
+/* Median distance from a ball to its nearest distinct neighbour (a coincident centre is none); 0 where there is none
+ * (fewer than two distinct centres). Parallel, over a tree of boxes; exact, not sampled. Errors: MEMORY, UNSUPPORTED. */
 mns_status field_spacing(const particles *p, double *median, mns_error *error);
+
+/* Exact median of non-negative finite values, the mean of the middle two where count is even; 0 of none. */
+double field_median(const double *value, size_t count);
 
 static inline double field_radius(const mns_field *f, size_t i)
 {
