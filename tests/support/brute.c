@@ -57,10 +57,9 @@ long double brute_kernel_slope_bound(mns_kernel kernel)
 long double brute_kernel_curvature_bound(mns_kernel kernel)
 {
     switch (kernel) {
-    case MNS_KERNEL_POLY2:
-        return 8; /* k'' at v = 1 */
-    case MNS_KERNEL_POLY4:
-        return 8; /* at v = 0 */
+    case MNS_KERNEL_POLY2: /* k'' at v = 1 */
+    case MNS_KERNEL_POLY4: /* at v = 0 */
+        return 8;
     case MNS_KERNEL_WYVILL:
         return 4.889L; /* 44/9 at v = 0 */
     case MNS_KERNEL_PERLIN:
