@@ -1,0 +1,66 @@
+/* A command line to the library's descriptors: one table row an option, holding its name, its help and what
+ * it sets. */
+#ifndef MNS_APP_OPTIONS_H
+#define MNS_APP_OPTIONS_H
+
+#include "app/parse.h"
+#include "meniscus.h"
+
+/* All that a command was told. Strings point into argv or into `scene`. */
+typedef struct app_options {
+    const char *const *inputs;
+    size_t input_count;
+    mns_input_options field;
+    mns_view view;
+    mns_look look;
+    mns_options draw;
+    mns_backend backend;
+    const char *output, *aov, *stats; /* NULL: not asked for */
+    parse_frames_range frames;
+    int repeat;  /* 0: not asked for */
+    int threads; /* 0: OpenMP's own choice */
+    bool explain;
+    bool gl, json;        /* info */
+    bool range_is_scenes; /* look.range comes from the scene, and holds for its color_by only */
+    bool help;            /* was asked for and printed: nothing more to do */
+    mns_scene *scene;     /* of a .json argument */
+    const char **names;
+} app_options;
+
+/* Sets what the option means; `name` is "--size" and so on, `text` its value or NULL. */
+typedef mns_status option_apply(app_options *o, const char *name, const char *text, mns_error *error);
+
+typedef struct option_row {
+    const char *name;  /* NULL: a heading, which is `doc` */
+    char letter;       /* 0: none */
+    const char *value; /* NULL: takes none */
+    const char *doc;
+    option_apply *apply;
+} option_row;
+
+typedef struct option_table {
+    const char *command, *arguments, *doc; /* "render", "INPUT... -o FILE", what it does */
+    const option_row *rows;
+    size_t count;
+} option_table;
+
+/* Reads a command's arguments: every value is checked first, then a .json argument is loaded as a scene, and
+ * the options are laid over it. With --help the help is printed and o->help set. The caller calls
+ * options_free in either case. */
+mns_status options_read(const option_table *table, int argc, char **argv, app_options *o, mns_error *error);
+void options_free(app_options *o);
+
+/* Rows that commands share. */
+option_apply option_kernel, option_iso, option_radius, option_radius_scale, option_frame;
+
+#define OPTIONS_OF_FIELD                                                                                     \
+    {NULL, 0, NULL, "Field (over what the input says):", NULL},                                              \
+        {"kernel", 0, "NAME", "poly2, poly3 (the default), poly4, wyvill, perlin or wendland",               \
+         option_kernel},                                                                                     \
+        {"iso", 0, "L", "the surface is where the field equals L > 0 (default 0.2)", option_iso},            \
+        {"radius", 0, "R", "one effective radius for all particles", option_radius},                         \
+    {                                                                                                        \
+        "radius-scale", 0, "S", "multiply the radii by S, wherever they come from", option_radius_scale      \
+    }
+
+#endif

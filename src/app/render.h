@@ -1,0 +1,16 @@
+/* meniscus render. */
+#ifndef MNS_APP_RENDER_H
+#define MNS_APP_RENDER_H
+
+#include "app/options.h"
+
+extern const option_table RENDER_OPTIONS;
+
+/* Notes what the user should know of an input: radii that were guessed, rows that were skipped. */
+void render_note_field(const char *name, const mns_field *field);
+
+/* Prints the plan of one frame, with the limits of a context where one starts. */
+mns_status render_explain(const app_options *o, const mns_field *field, const mns_view *view,
+                          const mns_look *look, mns_error *error);
+
+#endif

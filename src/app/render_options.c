@@ -1,0 +1,389 @@
+/* The options of `meniscus render`. */
+#include "app/render.h"
+
+#include "app/app.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Frame and camera
+ * ------------------------------------------------------------------------------------------ */
+
+static mns_status option_size(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_size(name, text, &o->view.width, &o->view.height, error);
+}
+
+static mns_status parse_point(const char *name, const char *text, double v[3], mns_error *error)
+{
+    return parse_numbers(name, text, ',', 3, v, "X,Y,Z, three numbers", error);
+}
+
+static mns_status parse_direction(const char *name, const char *text, double v[3], mns_error *error)
+{
+    mns_status status = parse_point(name, text, v, error);
+    if (!status && v[0] == 0 && v[1] == 0 && v[2] == 0)
+        return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected a direction, not all zeros", name, text);
+    return status;
+}
+
+static mns_status option_eye(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->view.set |= MNS_VIEW_EYE;
+    return parse_point(name, text, o->view.eye, error);
+}
+
+static mns_status option_look_at(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->view.set |= MNS_VIEW_LOOK_AT;
+    return parse_point(name, text, o->view.look_at, error);
+}
+
+static mns_status option_up(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_direction(name, text, o->view.up, error);
+}
+
+static mns_status option_fov(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    static const char expected[] = "degrees between 0 and 180, both excluded";
+    mns_status status = parse_numbers(name, text, ',', 1, &o->view.fov, expected, error);
+    if (!status && !(o->view.fov > 0 && o->view.fov < 180))
+        return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected %s", name, text, expected);
+    return status;
+}
+
+/* ---- Light and material
+ * ---------------------------------------------------------------------------------------- */
+
+static mns_status option_light(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    if (strcmp(text, "head") == 0) {
+        o->look.light = MNS_LIGHT_HEAD;
+        return MNS_OK;
+    }
+    o->look.light = MNS_LIGHT_DIRECTIONAL;
+    if (parse_direction(name, text, o->look.light_direction, error))
+        return app_fail(error, MNS_ERROR_USAGE,
+                        "%s %.80s: expected head, or X,Y,Z, a direction towards the light", name, text);
+    return MNS_OK;
+}
+
+static const char *shading_name(int i)
+{
+    return i == MNS_SHADING_CEL ? "cel" : "smooth";
+}
+
+static mns_status option_shading(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    int index;
+    mns_status status = parse_name(name, text, shading_name, MNS_SHADING_CEL + 1, &index, error);
+    if (!status) o->look.shading = (mns_shading)index;
+    return status;
+}
+
+static mns_status option_cel_bands(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_count(name, text, 256, &o->look.cel_bands, error);
+}
+
+static mns_status parse_color(const char *name, const char *text, double rgba[4], mns_error *error)
+{
+    mns_error what;
+    if (!mns_color_parse(text, rgba, &what)) return MNS_OK;
+    return app_fail(error, MNS_ERROR_USAGE, "%s: %s", name, what.text);
+}
+
+static mns_status option_color(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    double rgba[4];
+    mns_status status = parse_color(name, text, rgba, error);
+    if (status) return status;
+    if (rgba[3] != 1)
+        return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected an opaque colour, R,G,B or #rrggbb", name,
+                        text);
+    memcpy(o->look.color, rgba, sizeof o->look.color);
+    o->look.set |= MNS_LOOK_COLOR;
+    o->look.color_by = NULL;
+    return MNS_OK;
+}
+
+static mns_status option_background(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->look.set |= MNS_LOOK_BACKGROUND;
+    return parse_color(name, text, o->look.background, error);
+}
+
+static mns_status option_color_by(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    if (!*text) return app_fail(error, MNS_ERROR_USAGE, "%s: expected the name of a column", name);
+    if (o->range_is_scenes) o->look.set &= ~(unsigned)MNS_LOOK_RANGE;
+    o->look.color_by = text;
+    return MNS_OK;
+}
+
+static const char *color_map_name(int i)
+{
+    return mns_color_map_name((mns_color_map)i);
+}
+
+static mns_status option_color_map(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    int index;
+    mns_status status = parse_name(name, text, color_map_name, MNS_COLOR_MAP_COUNT, &index, error);
+    if (!status) o->look.color_map = (mns_color_map)index;
+    return status;
+}
+
+static mns_status option_color_range(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    static const char expected[] = "LO:HI, two numbers, the lower first";
+    o->look.set |= MNS_LOOK_RANGE;
+    o->range_is_scenes = false;
+    mns_status status = parse_numbers(name, text, ':', 2, o->look.range, expected, error);
+    if (!status && !(o->look.range[0] < o->look.range[1]))
+        return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected %s", name, text, expected);
+    return status;
+}
+
+static mns_status option_ambient(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->look.set |= MNS_LOOK_AMBIENT;
+    return parse_weight(name, text, &o->look.ambient, error);
+}
+
+static mns_status option_diffuse(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->look.set |= MNS_LOOK_DIFFUSE;
+    return parse_weight(name, text, &o->look.diffuse, error);
+}
+
+static mns_status option_specular(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->look.set |= MNS_LOOK_SPECULAR;
+    return parse_weight(name, text, &o->look.specular, error);
+}
+
+static mns_status option_shininess(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_positive(name, text, &o->look.shininess, error);
+}
+
+/* ---- Method
+ * ---------------------------------------------------------------------------------------------------- */
+
+static const char *method_name(int i)
+{
+    static const char *const names[] = {"auto", "list"};
+    return names[i];
+}
+
+static mns_status option_method(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    static const char *const absent[] = {"tile", "fbvh", "bvh", "reference"};
+    for (size_t i = 0; i < sizeof absent / sizeof *absent; i++)
+        if (strcmp(text, absent[i]) == 0)
+            return app_fail(error, MNS_ERROR_USAGE, "%s %s: not in this build; expected auto or list", name,
+                            text);
+    int index;
+    mns_status status = parse_name(name, text, method_name, MNS_METHOD_LIST + 1, &index, error);
+    if (!status) o->draw.method = (mns_method)index;
+    return status;
+}
+
+static const char *solver_name(int i)
+{
+    static const char *const names[] = {"exact", "cubic", "cubic-monomial"};
+    return names[i];
+}
+
+static mns_status option_solver(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    int index;
+    mns_status status = parse_name(name, text, solver_name, MNS_SOLVER_CUBIC_MONOMIAL + 1, &index, error);
+    if (!status) o->draw.solver = (mns_solver)index;
+    return status;
+}
+
+static const char *gather_name(int i)
+{
+    static const char *const names[] = {"early-z", "paper"};
+    return names[i];
+}
+
+static mns_status option_gather(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    int index;
+    mns_status status = parse_name(name, text, gather_name, MNS_GATHER_PAPER + 1, &index, error);
+    if (!status) o->draw.gather = (mns_gather)index;
+    return status;
+}
+
+static const char *backend_name(int i)
+{
+    static const char *const names[] = {"auto", "egl", "osmesa", "glfw"};
+    return names[i];
+}
+
+static mns_status option_backend(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    int index;
+    mns_status status = parse_name(name, text, backend_name, MNS_BACKEND_GLFW + 1, &index, error);
+    if (!status) o->backend = (mns_backend)index;
+    return status;
+}
+
+static mns_status option_samples(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_count(name, text, 64, &o->draw.samples, error);
+}
+
+static mns_status option_threads(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_count(name, text, 1024, &o->threads, error);
+}
+
+/* ---- Output and measurement
+ * ------------------------------------------------------------------------------------ */
+
+static mns_status option_output(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    (void)name, (void)error;
+    o->output = text;
+    return MNS_OK;
+}
+
+static mns_status option_aov(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    (void)name, (void)error;
+    o->aov = text;
+    return MNS_OK;
+}
+
+static mns_status option_stats(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    (void)name, (void)error;
+    o->stats = text;
+    return MNS_OK;
+}
+
+static mns_status option_repeat(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_count(name, text, 1000000, &o->repeat, error);
+}
+
+static mns_status option_moving(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    (void)name, (void)text, (void)error;
+    o->draw.moved = true;
+    return MNS_OK;
+}
+
+static mns_status option_explain(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    (void)name, (void)text, (void)error;
+    o->explain = true;
+    return MNS_OK;
+}
+
+/* ---- Tests and diagnosis
+ * --------------------------------------------------------------------------------------- */
+
+static mns_status option_pool(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    long nodes;
+    mns_status status = parse_whole(name, text, 1, LONG_MAX, &nodes, error);
+    if (!status) o->draw.max_pool_nodes = (size_t)nodes;
+    return status;
+}
+
+static mns_status option_window(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_count(name, text, 1000000, &o->draw.window, error);
+}
+
+static mns_status option_active(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_count(name, text, 1000000, &o->draw.active, error);
+}
+
+static mns_status option_root_steps(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_count(name, text, 1000000, &o->draw.root_steps, error);
+}
+
+static mns_status option_shuffle(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    long seed;
+    mns_status status = parse_whole(name, text, 1, UINT32_MAX, &seed, error);
+    if (!status) o->draw.shuffle = (uint32_t)seed;
+    return status;
+}
+
+/* ---- The table
+ * ------------------------------------------------------------------------------------------------- */
+
+#define HEADING(text)                                                                                        \
+    {                                                                                                        \
+        NULL, 0, NULL, text, NULL                                                                            \
+    }
+
+static const option_row ROWS[] = {
+    HEADING("Output:"),
+    {"output", 'o', "FILE", "the image, .png or .exr; with %04d in its name, a file a frame", option_output},
+    {"aov", 0, "FILE.exr", "also write t, t.lo, N.X N.Y N.Z and certain, lossless, beside R G B A",
+     option_aov},
+    {"size", 0, "WxH", "pixels (default 1024x768)", option_size},
+    {"frame", 0, "A[:B[:STEP]]", "frames of the input, from 0 (default: 0, or all where -o numbers them)",
+     option_frame},
+    {"background", 0, "COLOR", "R,G,B[,A] in [0, 1], #rrggbb[aa] or transparent (default 1,1,1)",
+     option_background},
+    {"aa", 0, "N", "samples a pixel for colour, 1 to 64 (default 1)", option_samples},
+    OPTIONS_OF_FIELD,
+    HEADING(
+        "Camera (default: the whole field, of a sequence that of frame 0, fits the frame, seen along -z):"),
+    {"eye", 0, "X,Y,Z", "where the camera is", option_eye},
+    {"look-at", 0, "X,Y,Z", "the point in the middle of the frame", option_look_at},
+    {"up", 0, "X,Y,Z", "what is up in the frame (default 0,1,0)", option_up},
+    {"fov", 0, "DEG", "vertical field of view in degrees (default 45)", option_fov},
+    HEADING("Look:"),
+    {"light", 0, "head|X,Y,Z", "at the eye, or from that direction (default head)", option_light},
+    {"shading", 0, "NAME", "smooth (the default) or cel", option_shading},
+    {"cel-bands", 0, "N", "bands of cel shading (default 3)", option_cel_bands},
+    {"color", 0, "COLOR", "the surface, R,G,B in [0, 1] or #rrggbb (default 0.35,0.62,0.86)", option_color},
+    {"color-by", 0, "NAME", "colour by a column of the input, such as element", option_color_by},
+    {"color-map", 0, "NAME", "viridis (the default), magma, inferno, plasma or cividis", option_color_map},
+    {"color-range", 0, "LO:HI",
+     "values at the map's ends (default: the column's, of a sequence those of frame 0)", option_color_range},
+    {"ambient", 0, "X", "default 0.15", option_ambient},
+    {"diffuse", 0, "X", "default 0.85", option_diffuse},
+    {"specular", 0, "X", "default 0.25", option_specular},
+    {"shininess", 0, "X", "exponent of the highlight (default 40)", option_shininess},
+    HEADING("Method:"),
+    {"method", 0, "NAME", "auto (the default: the plan picks) or list", option_method},
+    {"solver", 0, "NAME", "exact (the default), cubic or cubic-monomial", option_solver},
+    {"gather", 0, "NAME", "early-z (the default) or paper, the passes as published", option_gather},
+    {"backend", 0, "NAME", "auto (the default: the first that starts), egl, osmesa or glfw", option_backend},
+    {"threads", 0, "N", "threads on the CPU (default: one a core)", option_threads},
+    HEADING("Measurement:"),
+    {"stats", 0, "FILE.json", "write times, counts, and what was left out", option_stats},
+    {"repeat", 0, "N", "draw each frame N times; --stats gets the first and the median", option_repeat},
+    {"moving", 0, NULL, "take every position as changed before each draw: nothing is reused", option_moving},
+    {"explain", 0, NULL, "print the plan and stop", option_explain},
+    HEADING("Tests and diagnosis (slower; the image stays right):"),
+    {"pool", 0, "N", "at most N list nodes at once; the frame is cut into tiles to fit", option_pool},
+    {"window", 0, "N", "balls of a pixel's sorted window", option_window},
+    {"active", 0, "N", "balls active at once before the slow path", option_active},
+    {"root-steps", 0, "N", "steps of a root search before the slow path", option_root_steps},
+    {"shuffle", 0, "SEED", "put the gathered lists in a random order", option_shuffle},
+};
+
+const option_table RENDER_OPTIONS = {
+    .command = "render",
+    .arguments = "INPUT... -o FILE",
+    .doc =
+        "Draws the surface of INPUT: a particle file, several of them as one sequence, a generator such as "
+        "tornado:4000 (name:count[:seed[:frames]]), or a scene, FILE.json, over which options prevail.",
+    .rows = ROWS,
+    .count = sizeof ROWS / sizeof *ROWS,
+};
