@@ -31,24 +31,30 @@ static int row_key(const option_table *table, size_t i)
     return table->rows[i].letter ? table->rows[i].letter : KEY_FIRST + (int)i;
 }
 
-static error_t record(int key, char *text, struct argp_state *state)
+static bool take(command_line *line, int key, char *text)
 {
-    command_line *line = state->input;
-    line->next = state->next;
     if (key == KEY_HELP) {
         line->help = true;
-        return 0;
+        return true;
     }
     if (key == ARGP_KEY_ARG) {
         line->names[line->name_count++] = text;
-        return 0;
+        return true;
     }
     for (size_t i = 0; i < line->table->count; i++) {
         if (!line->table->rows[i].name || row_key(line->table, i) != key) continue;
         line->given[line->given_count++] = (given_option){i, text};
-        return 0;
+        return true;
     }
-    return ARGP_ERR_UNKNOWN;
+    return false;
+}
+
+static error_t record(int key, char *text, struct argp_state *state)
+{
+    command_line *line = state->input;
+    if (!take(line, key, text)) return ARGP_ERR_UNKNOWN;
+    line->next = state->next;
+    return 0;
 }
 
 /* The table as argp wants it, for the caller to free; NULL where memory ends. */
