@@ -1,0 +1,218 @@
+/* Reads back an EXR of ours: one part of scan lines, deflated or plain, with all of our float32 channels. */
+#include "image/exr.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Deflate makes at most 1032 bytes of one (RFC 1951: a match of 258 bytes in 2 bits); doubled for safety. */
+enum { INFLATION_MAX = 2064 };
+
+typedef struct image_reader {
+    const char *path;
+    image_stream stream;
+    exr_context_t context;
+    exr_attr_box2i_t window;
+    mns_error *error;
+} image_reader;
+
+static void on_error(exr_const_context_t context, exr_result_t result, const char *message)
+{
+    void *data = NULL;
+    (void)result;
+    if (!context || exr_get_user_data(context, &data) != EXR_ERR_SUCCESS || !data) return;
+    image_stream *stream = data;
+    if (!stream->message[0]) snprintf(stream->message, sizeof stream->message, "%s", message);
+}
+
+static int64_t on_read(exr_const_context_t context, void *data, void *bytes, uint64_t size, uint64_t offset,
+                       exr_stream_error_func_ptr_t report)
+{
+    image_stream *stream = data;
+    errno = 0;
+    if (offset > INT64_MAX || fseeko(stream->file, (off_t)offset, SEEK_SET)) goto fail;
+    size_t count = fread(bytes, 1, size, stream->file);
+    if (count == size || feof(stream->file)) return (int64_t)count;
+fail:
+    if (!stream->code) stream->code = errno ? errno : EIO;
+    report(context, EXR_ERR_READ_IO, "read failed");
+    return -1;
+}
+
+static int64_t on_size(exr_const_context_t context, void *data)
+{
+    (void)context;
+    return ((const image_stream *)data)->size;
+}
+
+static mns_status cannot_read(const char *path, int code, mns_error *error)
+{
+    char reason[128];
+    return status_fail(error, MNS_ERROR_IO, "%s: cannot read: %s", path,
+                       strerror_r(code, reason, sizeof reason));
+}
+
+static mns_status damaged(const image_reader *reader, exr_result_t result)
+{
+    const char *reason = reader->stream.message;
+    if (reader->stream.code) return cannot_read(reader->path, reader->stream.code, reader->error);
+    if (result == EXR_ERR_OUT_OF_MEMORY) return status_no_memory(reader->error, "reading an EXR");
+    return status_fail(reader->error, MNS_ERROR_INPUT, "%s: not a whole EXR file: %s", reader->path,
+                       *reason ? reason : exr_get_default_error_message(result));
+}
+
+/* Opens a regular file that begins as an EXR does. O_NONBLOCK, so that a pipe's name cannot hang the program.
+ */
+static mns_status open_file(image_reader *reader)
+{
+    static const unsigned char magic[4] = {0x76, 0x2f, 0x31, 0x01};
+    unsigned char start[4] = {0};
+    struct stat status;
+    int descriptor = open(reader->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor < 0) return cannot_read(reader->path, errno, reader->error);
+    if (!fstat(descriptor, &status) && S_ISREG(status.st_mode))
+        reader->stream.file = fdopen(descriptor, "rb");
+    if (!reader->stream.file) {
+        close(descriptor);
+        if (S_ISDIR(status.st_mode)) return cannot_read(reader->path, EISDIR, reader->error);
+        return status_fail(reader->error, MNS_ERROR_IO, "%s: cannot read: not a regular file", reader->path);
+    }
+    reader->stream.size = status.st_size;
+    if (fread(start, 1, 4, reader->stream.file) == 4 && !memcmp(start, magic, 4)) return MNS_OK;
+    return status_fail(reader->error, MNS_ERROR_INPUT,
+                       "%s: not an EXR file: expected the bytes 76 2f 31 01 at its beginning", reader->path);
+}
+
+static mns_status read_header(image_reader *reader)
+{
+    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    int parts = 0;
+    exr_storage_t storage = EXR_STORAGE_DEEP_SCANLINE;
+    exr_compression_t compression = EXR_COMPRESSION_NONE;
+    initializer.error_handler_fn = on_error;
+    initializer.user_data = &reader->stream;
+    initializer.read_fn = on_read;
+    initializer.size_fn = on_size;
+    initializer.flags = EXR_CONTEXT_FLAG_STRICT_HEADER | EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    exr_result_t result = exr_start_read(&reader->context, reader->path, &initializer);
+    if (result == EXR_ERR_SUCCESS) result = exr_get_count(reader->context, &parts);
+    if (result == EXR_ERR_SUCCESS) result = exr_get_storage(reader->context, 0, &storage);
+    if (result == EXR_ERR_SUCCESS) result = exr_get_compression(reader->context, 0, &compression);
+    if (result == EXR_ERR_SUCCESS) result = exr_get_data_window(reader->context, 0, &reader->window);
+    if (result != EXR_ERR_SUCCESS) return damaged(reader, result);
+    if (parts != 1 || storage != EXR_STORAGE_SCANLINE)
+        return status_fail(reader->error, MNS_ERROR_INPUT,
+                           "%s: expected one part of scan lines, as meniscus writes it", reader->path);
+    if (compression > EXR_COMPRESSION_ZIP) /* none, RLE, ZIPS, ZIP */
+        return status_fail(reader->error, MNS_ERROR_INPUT,
+                           "%s: compressed by OpenEXR's method %d; expected ZIP, as meniscus writes it",
+                           reader->path, (int)compression);
+    return MNS_OK;
+}
+
+/* The header's size is believed only where the file's own length can hold that many pixels. */
+static mns_status read_size(const image_reader *reader, int *width, int *height)
+{
+    int64_t w = (int64_t)reader->window.max.x - reader->window.min.x + 1;
+    int64_t h = (int64_t)reader->window.max.y - reader->window.min.y + 1;
+    bool in_range = w >= 1 && h >= 1 && w <= IMAGE_SIDE_MAX && h <= IMAGE_SIDE_MAX;
+    int64_t pixel_bytes = IMAGE_CHANNELS * (int64_t)sizeof(float);
+    if (!in_range || w * h > reader->stream.size * INFLATION_MAX / pixel_bytes)
+        return status_fail(reader->error, MNS_ERROR_INPUT,
+                           "%s: announces %lld x %lld pixels, which its %lld bytes cannot hold", reader->path,
+                           (long long)w, (long long)h, (long long)reader->stream.size);
+    *width = (int)w, *height = (int)h;
+    return MNS_OK;
+}
+
+static mns_status check_channels(const image_reader *reader, const image_channel channels[IMAGE_CHANNELS])
+{
+    const exr_attr_chlist_t *list = NULL;
+    exr_result_t result = exr_get_channels(reader->context, 0, &list);
+    if (result != EXR_ERR_SUCCESS) return damaged(reader, result);
+    for (int i = 0; i < IMAGE_CHANNELS; i++) {
+        const exr_attr_chlist_entry_t *found = NULL;
+        for (int j = 0; j < list->num_channels; j++)
+            if (!strcmp(list->entries[j].name.str, channels[i].name)) found = &list->entries[j];
+        if (!found)
+            return status_fail(reader->error, MNS_ERROR_INPUT,
+                               "%s: lacks the channel %s; meniscus writes it with --aov", reader->path,
+                               channels[i].name);
+        if (found->pixel_type != EXR_PIXEL_FLOAT || found->x_sampling != 1 || found->y_sampling != 1)
+            return status_fail(reader->error, MNS_ERROR_INPUT,
+                               "%s: channel %s: expected a float32 of every pixel", reader->path,
+                               channels[i].name);
+    }
+    return MNS_OK;
+}
+
+/* Points the decoder at the rows of the image from `row` on; channels that are not ours are skipped. */
+static void aim(exr_decode_pipeline_t *decoder, int width, const image_channel channels[IMAGE_CHANNELS],
+                int row)
+{
+    for (int i = 0; i < decoder->channel_count; i++) {
+        exr_coding_channel_info_t *coded = &decoder->channels[i];
+        const image_channel *channel = image_find_channel(channels, coded->channel_name);
+        if (!channel) continue;
+        float *start = channel->plane + (size_t)row * (size_t)width * (size_t)channel->stride;
+        coded->user_bytes_per_element = sizeof(float);
+        coded->user_data_type = EXR_PIXEL_FLOAT;
+        coded->user_pixel_stride = channel->stride * (int)sizeof(float);
+        coded->user_line_stride = width * coded->user_pixel_stride;
+        coded->decode_to_ptr = (uint8_t *)(start + channel->offset);
+    }
+}
+
+static mns_status read_rows(const image_reader *reader, const mns_image *image,
+                            const image_channel channels[IMAGE_CHANNELS])
+{
+    exr_decode_pipeline_t decoder = EXR_DECODE_PIPELINE_INITIALIZER;
+    exr_chunk_info_t chunk;
+    int32_t lines = 0;
+    exr_result_t result = exr_get_scanlines_per_chunk(reader->context, 0, &lines);
+    for (int row = 0; row < image->height && result == EXR_ERR_SUCCESS; row += lines) {
+        result = exr_read_scanline_chunk_info(reader->context, 0, reader->window.min.y + row, &chunk);
+        if (result != EXR_ERR_SUCCESS) break;
+        result = row ? exr_decoding_update(reader->context, 0, &chunk, &decoder)
+                     : exr_decoding_initialize(reader->context, 0, &chunk, &decoder);
+        if (result != EXR_ERR_SUCCESS) break;
+        aim(&decoder, image->width, channels, row);
+        if (!row) result = exr_decoding_choose_default_routines(reader->context, 0, &decoder);
+        if (result == EXR_ERR_SUCCESS) result = exr_decoding_run(reader->context, 0, &decoder);
+    }
+    exr_decoding_destroy(reader->context, &decoder);
+    return result == EXR_ERR_SUCCESS ? MNS_OK : damaged(reader, result);
+}
+
+static mns_status read_image(image_reader *reader, mns_image **image)
+{
+    image_channel channels[IMAGE_CHANNELS];
+    const mns_image names_only = {0};
+    int width, height;
+    mns_image *made = NULL;
+    mns_status status = open_file(reader);
+    if (status == MNS_OK) status = read_header(reader);
+    if (status == MNS_OK) status = read_size(reader, &width, &height);
+    image_list_channels(&names_only, channels);
+    if (status == MNS_OK) status = check_channels(reader, channels);
+    if (status == MNS_OK) status = image_create(width, height, &made, reader->error);
+    if (status != MNS_OK) return status;
+    image_list_channels(made, channels);
+    status = read_rows(reader, made, channels);
+    if (status == MNS_OK)
+        *image = made;
+    else
+        mns_image_destroy(made);
+    return status;
+}
+
+mns_status mns_image_read(const char *path, mns_image **image, mns_error *error)
+{
+    image_reader reader = {.path = path, .error = error};
+    mns_status status = read_image(&reader, image);
+    if (reader.context) exr_finish(&reader.context);
+    if (reader.stream.file) fclose(reader.stream.file);
+    return status;
+}
