@@ -84,7 +84,7 @@ static mns_status option_shading(app_options *o, const char *name, const char *t
 
 static mns_status option_cel_bands(app_options *o, const char *name, const char *text, mns_error *error)
 {
-    return parse_count(name, text, 256, &o->look.cel_bands, error);
+    return parse_count(name, text, 64, &o->look.cel_bands, error);
 }
 
 static mns_status parse_color(const char *name, const char *text, double rgba[4], mns_error *error)
@@ -264,6 +264,7 @@ static mns_status option_stats(app_options *o, const char *name, const char *tex
 {
     (void)name, (void)error;
     o->stats = text;
+    o->draw.measure = true;
     return MNS_OK;
 }
 
@@ -349,7 +350,7 @@ static const option_row ROWS[] = {
     HEADING("Look:"),
     {"light", 0, "head|X,Y,Z", "at the eye, or from that direction (default head)", option_light},
     {"shading", 0, "NAME", "smooth (the default) or cel", option_shading},
-    {"cel-bands", 0, "N", "bands of cel shading (default 3)", option_cel_bands},
+    {"cel-bands", 0, "N", "bands of cel shading, 1 to 64 (default 3)", option_cel_bands},
     {"color", 0, "COLOR", "the surface, R,G,B in [0, 1] or #rrggbb (default 0.35,0.62,0.86)", option_color},
     {"color-by", 0, "NAME", "colour by a column of the input, such as element", option_color_by},
     {"color-map", 0, "NAME", "viridis (the default), magma, inferno, plasma or cividis", option_color_map},

@@ -143,7 +143,7 @@ mns_status scene_read_background(scene_reader *r, const char *key, const json_t 
 mns_status scene_read_bands(scene_reader *r, const char *key, const json_t *value, void *target)
 {
     json_int_t bands = json_integer_value(value);
-    if (bands < 1 || bands > 256) return scene_wrong(r, key, value, "a whole number from 1 to 256");
+    if (bands < 1 || bands > 64) return scene_wrong(r, key, value, "a whole number from 1 to 64");
     *(int *)target = (int)bands;
     return MNS_OK;
 }
