@@ -269,15 +269,19 @@ typedef mns_proc (*mns_get_proc)(const char *name); /* glfwGetProcAddress and eg
 
 typedef struct mns_context mns_context;
 
-/* Makes an OpenGL core context of at least 4.3 with no visible window, and makes it current on this thread. AUTO tries EGL
- * (surfaceless, then device), OSMesa, a hidden GLFW window. GLFW: main thread only. Errors: GL (library missing, version too
- * old, driver failed: the text says which, for each one tried), UNSUPPORTED (not built in). */
+/* Makes an OpenGL core context of at least 4.3 with no visible window, and makes it current on this thread; whatever context
+ * was current there no longer is. AUTO tries EGL (surfaceless, then device; a GPU's device before a surfaceless software
+ * renderer), OSMesa, a hidden GLFW window. GLFW: main thread only, and glfwTerminate is left to the host. Errors: GL (library
+ * missing, version too old, driver failed: the text says which, for each one tried), UNSUPPORTED (not built in). */
 MNS_API mns_status mns_context_create(mns_backend backend, mns_context **context, mns_error *error);
 MNS_API void mns_context_destroy(mns_context *context);
 MNS_API mns_status mns_context_make_current(mns_context *context, mns_error *error);
 MNS_API mns_get_proc mns_context_get_proc(const mns_context *context);
 /* "egl surfaceless", "egl device 0", "osmesa", "glfw". */
 MNS_API const char *mns_context_name(const mns_context *context);
+/* What a back end (AUTO: each of them) offers on this machine: version, renderer, the limits that matter, or why it cannot
+ * start; several lines without a last newline, to be given to free(). NULL: out of memory. Leaves no context current. */
+MNS_API char *mns_backend_describe(mns_backend backend);
 
 /* ---- Drawing ------------------------------------------------------------------------------------------------ */
 

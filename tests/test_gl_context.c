@@ -173,6 +173,24 @@ static void contexts_made_again_and_again_do_not_grow(void **state)
     assert_int_equal(mns_context_make_current(f->context, &error), MNS_OK);
 }
 
+static void description_tells_version_and_limits(void **state)
+{
+    gl_fixture *f = *state;
+    char *text = mns_backend_describe(f->backend), block[64];
+    mns_error error;
+    GLint64 bytes = 0;
+    assert_non_null(text);
+    assert_int_equal(mns_context_make_current(f->context, &error), MNS_OK);
+    f->gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+    snprintf(block, sizeof block, "storage block       %lld bytes", (long long)bytes);
+    assert_non_null(strstr(text, (const char *)f->gl.GetString(GL_VERSION)));
+    assert_non_null(strstr(text, (const char *)f->gl.GetString(GL_RENDERER)));
+    assert_non_null(strstr(text, block));
+    assert_non_null(strstr(text, mns_context_name(f->context)));
+    assert_int_not_equal(text[strlen(text) - 1], '\n');
+    free(text);
+}
+
 static void unknown_back_end_is_a_usage_error(void **state)
 {
     mns_context *context = NULL;
@@ -198,6 +216,7 @@ int main(void)
         cmocka_unit_test(two_contexts_live_at_once),
         cmocka_unit_test(back_ends_work_side_by_side),
         cmocka_unit_test(contexts_made_again_and_again_do_not_grow),
+        cmocka_unit_test(description_tells_version_and_limits),
         cmocka_unit_test(unknown_back_end_is_a_usage_error),
         cmocka_unit_test(destroy_takes_null),
     };

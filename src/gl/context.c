@@ -14,7 +14,7 @@ bool context_renderer_is_software(const char *renderer)
     return false;
 }
 
-static void release_thread(void)
+void context_release_thread(void)
 {
     context_glfw_release();
     context_osmesa_release();
@@ -39,66 +39,73 @@ static void close_context(mns_context *context)
  * software. */
 static mns_status open_device(mns_context *context, bool want_hardware, mns_error *error)
 {
-    int count = context_egl_device_count(), tried = 0;
-    mns_error last = {0};
+    mns_status status = status_fail(error, MNS_ERROR_GL, "no device");
+    int count = context_egl_device_count();
     for (int device = 0; device < count; device++) {
+        mns_error one = {0};
         if (want_hardware && context_egl_device_is_software(device)) continue;
-        tried++;
-        if (context_egl_device_open(context, device, &last) != MNS_OK) continue;
-        if (!want_hardware || !context_renderer_is_software(current_renderer(context))) return MNS_OK;
-        close_context(context);
-        last.text[0] = 0;
+        status = context_egl_device_open(context, device, &one);
+        if (status == MNS_OK && want_hardware && context_renderer_is_software(current_renderer(context))) {
+            close_context(context);
+            status = status_fail(&one, MNS_ERROR_GL, "a software renderer");
+        }
+        if (status == MNS_OK) return MNS_OK;
+        status_fail(error, status, "device %d: %s", device, one.text);
     }
-    if (!tried || !last.text[0]) return status_fail(error, MNS_ERROR_GL, "no EGL device");
-    return status_fail(error, MNS_ERROR_GL, "%d EGL devices, of the last: %s", tried, last.text);
+    return status;
 }
 
-/* Surfaceless; a device where that fails. With a vendor's driver beside Mesa, surfaceless can end on the
- * software rasteriser of a machine that has a GPU: then the GPU's device is taken instead, if it works. */
+/* With a vendor's driver beside Mesa, surfaceless can end on the software renderer of a machine that has a
+ * GPU: then `context` becomes one on the GPU's device, if that works. Either way it is current afterwards. */
+static mns_status prefer_hardware(mns_context *context, mns_error *error)
+{
+    mns_context hardware = {0};
+    if (!context_renderer_is_software(current_renderer(context))) return MNS_OK;
+    if (open_device(&hardware, true, NULL) == MNS_OK) {
+        close_context(context);
+        *context = hardware;
+    }
+    context_release_thread();
+    mns_status status = context->backend.make_current(context, error);
+    if (status != MNS_OK) close_context(context);
+    return status;
+}
+
+/* Surfaceless; a device where that fails. */
 static mns_status open_egl(mns_context *context, mns_error *error)
 {
     mns_error surfaceless = {0}, device = {0};
     mns_status status = context_egl_surfaceless_open(context, &surfaceless);
-    if (status == MNS_OK) {
-        mns_context hardware = {0};
-        if (!context_renderer_is_software(current_renderer(context))) return MNS_OK;
-        if (open_device(&hardware, true, NULL) == MNS_OK) {
-            close_context(context);
-            *context = hardware;
-        }
-        release_thread();
-        return context->backend.make_current(context, error);
-    }
+    if (status == MNS_OK) return prefer_hardware(context, error);
     if (status == MNS_ERROR_UNSUPPORTED) return status_fail(error, status, "%s", surfaceless.text);
     if (open_device(context, false, &device) == MNS_OK) return MNS_OK;
-    return status_fail(error, MNS_ERROR_GL, "surfaceless: %s; device: %s", surfaceless.text, device.text);
+    return status_fail(error, MNS_ERROR_GL, "surfaceless: %s; %s", surfaceless.text, device.text);
 }
 
 static const struct {
     mns_backend kind;
     const char *name;
+    int share; /* characters of AUTO's error, so that a long reason never hides a later one; in all below its
+                  size */
     mns_status (*open)(mns_context *context, mns_error *error);
 } backends[] = {
     /* in AUTO's order */
-    {MNS_BACKEND_EGL, "EGL", open_egl},
-    {MNS_BACKEND_OSMESA, "OSMesa", context_osmesa_open},
-    {MNS_BACKEND_GLFW, "GLFW", context_glfw_open},
+    {MNS_BACKEND_EGL, "EGL", 200, open_egl},
+    {MNS_BACKEND_OSMESA, "OSMesa", 115, context_osmesa_open},
+    {MNS_BACKEND_GLFW, "GLFW", 100, context_glfw_open},
 };
 enum { BACKEND_COUNT = sizeof backends / sizeof *backends };
 
 static mns_status open_any(mns_context *context, mns_error *error)
 {
-    char tried[sizeof error->text] = "";
-    size_t used = 0;
-    for (size_t i = 0; i < BACKEND_COUNT; i++) {
+    char text[sizeof error->text] = "";
+    for (size_t i = 0, used = 0; i < BACKEND_COUNT; i++) {
         mns_error one = {0};
         if (backends[i].open(context, &one) == MNS_OK) return MNS_OK;
-        /* an equal share of the line for each, so that a long reason never hides a later back end's */
-        int written = snprintf(tried + used, sizeof tried - used, "%s%s: %.135s", i ? "; " : "",
-                               backends[i].name, one.text);
-        if (written > 0 && (size_t)written < sizeof tried - used) used += (size_t)written;
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s: %.*s", i ? "; " : "",
+                                 backends[i].name, backends[i].share, one.text);
     }
-    return status_fail(error, MNS_ERROR_GL, "no OpenGL 4.3 context: %s", tried);
+    return status_fail(error, MNS_ERROR_GL, "no OpenGL 4.3 context: %s", text);
 }
 
 static mns_status open_one(mns_backend kind, mns_context *context, mns_error *error)
@@ -117,7 +124,7 @@ mns_status mns_context_create(mns_backend backend, mns_context **context, mns_er
 {
     mns_context *made = calloc(1, sizeof *made);
     if (!made) return status_no_memory(error, "making a GL context");
-    release_thread();
+    context_release_thread();
     mns_status status = open_one(backend, made, error);
     if (status != MNS_OK) {
         free(made);
@@ -136,7 +143,7 @@ void mns_context_destroy(mns_context *context)
 
 mns_status mns_context_make_current(mns_context *context, mns_error *error)
 {
-    release_thread();
+    context_release_thread();
     return context->backend.make_current(context, error);
 }
 

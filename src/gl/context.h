@@ -39,6 +39,9 @@ void context_egl_release(void);
 void context_osmesa_release(void);
 void context_glfw_release(void);
 
+/* All three: no context is current on this thread. */
+void context_release_thread(void);
+
 /* Whether a GL_RENDERER string is that of a software rasteriser. */
 bool context_renderer_is_software(const char *renderer);
 
