@@ -53,6 +53,22 @@ DENSITY_FN REAL density_slope(int kernel, REAL u)
     return sqrt(u) * density_slope_over_v(kernel, u);
 }
 
+// k(v) / w^(3/2): with w = Q^2 / R^2 at the middle of a chord of half-length Q this is the peak over (Q / R)^3, which stays finite
+// as the chord shrinks, so that a spline's coefficients need no division by Q.
+DENSITY_FN REAL density_over_cube(int kernel, REAL u)
+{
+    REAL w = NUM(1.0) - u;
+    REAL z = sqrt(w);
+    if (kernel == DENSITY_POLY2) return z;
+    if (kernel == DENSITY_POLY3) return w * z;
+    if (kernel == DENSITY_POLY4) return w * w * z;
+    if (kernel == DENSITY_WYVILL) return z * (NUM(5.0) + NUM(4.0) * w) / NUM(9.0);
+    REAL v = sqrt(u);
+    REAL e = NUM(1.0) / (NUM(1.0) + v);
+    if (kernel == DENSITY_PERLIN) return w * z * e * e * e * (NUM(1.0) + v * (NUM(3.0) + NUM(6.0) * v));
+    return w * w * z * (e * e) * (e * e) * (NUM(1.0) + NUM(4.0) * v);
+}
+
 // At least |k'(v)| for every v at which 1 - v^2 <= w. A kernel's |k'| is bounded by |k'/v|, since v <= 1; that grows with w but
 // for perlin (30 v (1-v)^2 <= 40/9) and, with w, for wendland through 1 - v <= w.
 DENSITY_FN REAL density_slope_bound(int kernel, REAL w)

@@ -221,6 +221,7 @@ typedef struct mns_options {
     mns_gather gather;
     int samples;           /* samples a pixel for colour; 0: 1; planes are the centre sample's whatever it is; at most 64 */
     bool moved;            /* every position changed since the last draw: reuse nothing */
+    bool measure;          /* fill the phases' times (each closed by glFinish) and the lengths of the lists */
     size_t max_pool_nodes; /* 0: what the driver allows; fewer makes the frame be drawn in more tiles */
     /* For tests and diagnosis: each drives a path that ordinary scenes seldom take; the picture stays right. */
     int window;            /* balls of a pixel's sorted window; 0: the plan's choice */
@@ -368,7 +369,7 @@ MNS_API const mns_stats *mns_frame_stats(const mns_frame *frame);
 MNS_API const mns_plan *mns_frame_plan(const mns_frame *frame);
 
 typedef enum mns_plane { /* GL textures of a frame; a host may sample them */
-    MNS_PLANE_COLOR = 0, /* RGBA16F, linear, premultiplied */
+    MNS_PLANE_COLOR = 0, /* RGBA32F, linear, premultiplied */
     MNS_PLANE_DEPTH,     /* RG32F: t and its low word, +inf on a miss (t is the distance from the eye along the unit ray) */
     MNS_PLANE_NORMAL,    /* RGBA32F: outward normal, and w: 1 certain, 0 undecided; 0,0,0 on a miss */
 } mns_plane;

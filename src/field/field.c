@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 /* The shaders work in floats on lengths over R; beyond this no power of two of headroom is left for them. */
 #define LARGEST 1e30
@@ -196,6 +197,9 @@ mns_status field_from_particles(particles *p, const mns_input_options *options, 
     measure_strength(f, p);
     take(f, p);
     measure_box(f);
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    f->stamp = (uint64_t)now.tv_sec * 1000000000u + (uint64_t)now.tv_nsec;
     *field = f;
     return MNS_OK;
 fail:

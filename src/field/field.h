@@ -35,6 +35,7 @@ void particles_free(particles *p); /* frees the members, zeroes *p */
 void particles_column_range(particles_column *column, size_t count);
 
 struct mns_field {
+    uint64_t stamp;          /* nanoseconds of the clock when it was made: tells it from another at the same address */
     particles p;             /* p.radius holds R, or NULL where all are uniform_radius; never radius_is_surface */
     double uniform_radius;   /* where p.radius is NULL */
     mns_kernel kernel;       /* never DEFAULT */

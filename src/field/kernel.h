@@ -21,6 +21,7 @@
 #define density_value           density_value_f
 #define density_slope_over_v    density_slope_over_v_f
 #define density_slope           density_slope_f
+#define density_over_cube       density_over_cube_f
 #define density_slope_bound     density_slope_bound_f
 #define density_curvature_bound density_curvature_bound_f
 #define density_rise_bound      density_rise_bound_f
@@ -31,6 +32,7 @@
 #undef density_value
 #undef density_slope_over_v
 #undef density_slope
+#undef density_over_cube
 #undef density_slope_bound
 #undef density_curvature_bound
 #undef density_rise_bound

@@ -1,0 +1,131 @@
+// Polynomials of degree DEGREE in Bernstein form on [0, 1], and the search for their first rise through zero.
+//
+// The coefficients' hull holds the polynomial, so "every coefficient below -margin" proves that it stays below zero, and a single
+// change of sign proves a single root. Subdivision only averages, and so cancels nothing; what it rounds is added to the margin.
+
+const int PIECE_NONE = 0;    // stays below zero up to the end (or into the margin at the very end)
+const int PIECE_HIT = 1;     // rises through zero
+const int PIECE_OPEN = 2;    // rounding could decide
+const int PIECE_CAP = 3;     // the search took too many steps
+
+const int SEES_NONE = 0, SEES_ONE = 1, SEES_OPEN = 2;
+
+// What the signs of the coefficients prove, coming from below.
+int bernstein_sees(REAL b[DEGREE + 1], REAL margin)
+{
+    int first = DEGREE + 1;    // first coefficient not below zero for certain
+    bool above = true;         // all after it are above zero for certain
+    for (int i = 0; i <= DEGREE; i++) {
+        if (first <= DEGREE)
+            above = above && b[i] > margin;
+        else if (!(b[i] < -margin))
+            first = i;
+    }
+    if (first > DEGREE) return SEES_NONE;
+    if (first == DEGREE) return b[DEGREE] > margin ? SEES_ONE : SEES_NONE;
+    if (above && (first > 0 || b[0] <= margin)) return SEES_ONE;
+    return SEES_OPEN;
+}
+
+// de Casteljau at x: `left` is the polynomial on [0, x], what is left in b is it on [x, 1].
+void bernstein_split(inout REAL b[DEGREE + 1], REAL x, out REAL left[DEGREE + 1])
+{
+    for (int k = 0; k <= DEGREE; k++) {
+        left[k] = b[0];
+        for (int i = 0; i < DEGREE - k; i++) b[i] += x * (b[i + 1] - b[i]);
+    }
+}
+
+// Value and slope at x.
+REAL bernstein_at(REAL b[DEGREE + 1], REAL x, out REAL slope)
+{
+    for (int k = 0; k < DEGREE - 1; k++)
+        for (int i = 0; i < DEGREE - k; i++) b[i] += x * (b[i + 1] - b[i]);
+    slope = NUM(DEGREE) * (b[1] - b[0]);
+    return b[0] + x * (b[1] - b[0]);
+}
+
+// The one root of a polynomial that SEES_ONE, by Newton steps kept inside a shrinking bracket.
+REAL bernstein_root(REAL b[DEGREE + 1])
+{
+    REAL low = NUM(0.0);
+    REAL high = NUM(1.0);
+    REAL x = clamp(b[0] / (b[0] - b[DEGREE]), NUM(0.0), NUM(1.0));
+    for (int step = 0; step < 60; step++) {
+        REAL slope;
+        REAL value = bernstein_at(b, x, slope);
+        if (value < NUM(0.0))
+            low = x;
+        else
+            high = x;
+        REAL next = x - value / slope;
+        if (!(next >= low && next <= high)) next = NUM(0.5) * (low + high);
+        bool near = abs(next - x) <= SOLVE_TOLERANCE;
+        x = next;
+        if (near) break;
+    }
+    return x;
+}
+
+// The steepest chord from the first coefficient: over [0, 1] the polynomial lies below the line of that slope from b[0].
+REAL bernstein_steepest(REAL b[DEGREE + 1])
+{
+    REAL steepest = NUM(0.0);
+    for (int i = 1; i <= DEGREE; i++) steepest = max(steepest, (b[i] - b[0]) * (NUM(DEGREE) / NUM(i)));
+    return steepest;
+}
+
+// Where the largest coefficient stands, away from the ends: a good place to split a hump.
+REAL bernstein_hump(REAL b[DEGREE + 1])
+{
+    REAL largest = b[1];
+    REAL place = NUM(1.0);
+    for (int i = 2; i < DEGREE; i++)
+        if (b[i] > largest) {
+            largest = b[i];
+            place = NUM(i);
+        }
+    return place / NUM(DEGREE);
+}
+
+// The first x in [0, 1] at which the polynomial rises through zero, never passing one and never taking a later one: what lies left
+// of a step has been proved below zero before the step is taken.
+int bernstein_first(REAL b[DEGREE + 1], REAL margin, int steps, out REAL root)
+{
+    REAL low = NUM(0.0);
+    REAL width = NUM(1.0);
+    REAL scale = abs(b[0]);
+    for (int i = 1; i <= DEGREE; i++) scale = max(scale, abs(b[i]));
+    REAL rounding = NUM(0.5) * TAU * scale;
+    root = NUM(0.0);
+    for (int step = 0; step < steps; step++) {
+        int sees = bernstein_sees(b, margin);
+        if (sees == SEES_NONE) return PIECE_NONE;
+        if (sees == SEES_ONE) {
+            root = low + width * bernstein_root(b);
+            return PIECE_HIT;
+        }
+        if (b[0] > margin) return PIECE_OPEN;
+        REAL left[DEGREE + 1];
+        REAL right[DEGREE + 1] = b;
+        REAL x = bernstein_hump(b);
+        margin += rounding;
+        bernstein_split(right, x, left);
+        sees = bernstein_sees(left, margin);
+        if (sees == SEES_ONE) {
+            root = low + width * x * bernstein_root(left);
+            return PIECE_HIT;
+        }
+        if (sees == SEES_OPEN) {
+            // Go on from where the steepest line first comes near zero; inside the margin there is no such place.
+            if (left[0] > NUM(-4.0) * margin) return PIECE_OPEN;
+            x *= (NUM(-2.0) * margin - left[0]) / bernstein_steepest(left);
+            bernstein_split(b, x, left);
+        } else {
+            b = right;
+        }
+        low += width * x;
+        width *= NUM(1.0) - x;
+    }
+    return PIECE_CAP;
+}

@@ -1,0 +1,29 @@
+// Lay down depth (Szecsi & Illes 2012, section 5): where a core sphere, on which its ball alone reaches L, hides what is behind.
+#include "real.glsl"
+#include "density.glsl"
+#include "view.glsl"
+
+flat in vec4 sphere;
+
+layout(depth_greater) out float gl_FragDepth;
+
+void main()
+{
+    Ray ray = view_ray(gl_FragCoord.xy);
+    vec3 centre = sphere.xyz - ray.start;
+    float middle = dot(centre, ray.way);
+    vec3 offset = centre - middle * ray.way;
+    float away = sqrt(dot(offset, offset));
+    // A core that rounding may have put where none is would hide the surface: take it a little small and a little far.
+    float radius = sphere.w - 2.0e-6 * (abs(middle) + view_reach);
+    float square = (radius - away) * (radius + away);
+    if (!(square > 0.0)) discard;
+    float entry = middle - sqrt(square);
+#ifdef FAR
+    vec3 raw = vec3(view_raw(gl_FragCoord.xy));
+    float length_raw = sqrt(dot(raw, raw));
+    entry += depth.y * (dot(raw, raw) - 1.0) / (length_raw + 1.0);
+#endif
+    float place = (entry + 4.0e-6 * (abs(middle) + view_reach)) * depth.x;
+    gl_FragDepth = clamp(max(place, gl_FragCoord.z), 0.0, 1.0);
+}

@@ -1,0 +1,47 @@
+// Gathering (Szecsi & Illes 2012, section 5): every fragment whose ray meets the effective sphere becomes a node of its pixel's
+// list. Early z: the quad stands at its sphere's nearest point and is tested against the core depth, writing none. As in the paper
+// (GATHER_PAPER): the entry of the effective interval is clipped against the core depth here.
+#ifdef EARLY_Z
+layout(early_fragment_tests) in;
+#endif
+#include "real.glsl"
+#include "density.glsl"
+#include "view.glsl"
+#define LISTS_ACCESS
+#include "lists.glsl"
+
+flat in vec4 sphere;
+flat in uint ball;
+
+layout(binding = 0, offset = 0) uniform atomic_uint node_count;
+layout(location = 1) uniform uint node_capacity;
+#ifdef GATHER_PAPER
+layout(binding = 1) uniform sampler2D core_depth;
+#endif
+
+void main()
+{
+    Ray ray = view_ray(gl_FragCoord.xy);
+    vec3 centre = sphere.xyz - ray.start;
+    float middle = dot(centre, ray.way);
+    vec3 offset = centre - middle * ray.way;
+    // A little large: what a float calls a miss must be one in doubles, which may read this list again.
+    float radius = sphere.w + 2.0e-6 * (abs(middle) + view_reach);
+    float square = radius * radius - dot(offset, offset);
+    if (!(square > 0.0)) discard;
+#ifdef EYE_IN_BALL
+    if (middle + sqrt(square) < 0.0) discard;
+#endif
+#ifdef GATHER_PAPER
+    float entry = middle - sqrt(square);
+#ifdef FAR
+    vec3 raw = vec3(view_raw(gl_FragCoord.xy));
+    entry += depth.y * (dot(raw, raw) - 1.0) / (sqrt(dot(raw, raw)) + 1.0);
+#endif
+    if (entry * depth.x > texelFetch(core_depth, ivec2(gl_FragCoord.xy), 0).x) discard;
+#endif
+    uint node = atomicCounterIncrement(node_count);
+    if (node >= node_capacity) discard;
+    uint after = imageAtomicExchange(list_heads, ivec2(gl_FragCoord.xy), node);
+    list_nodes[node] = uvec2(ball, after);
+}

@@ -1,0 +1,58 @@
+// At a hit: one Newton step on the true field, the outward normal, and the colour of the balls around it.
+
+struct Surface {
+    REAL shift;     // what to add to t
+    REAL radius;    // the least of the balls around
+    REAL3 normal;   // outward unit normal, -grad f / |grad f|
+    vec4 color;     // density-weighted mean of the balls' colours or values (COLORS)
+};
+
+#ifdef COLORS
+#ifdef COLOR_LABELS
+#include "color.glsl"
+layout(std430, binding = 4) readonly buffer BallColors {
+    uint ball_color[];  // rgba8, sRGB
+};
+vec4 color_of(uint ball) { return vec4(color_linear(unpackUnorm4x8(ball_color[ball]).rgb), 1.0); }
+#else
+layout(std430, binding = 4) readonly buffer BallValues {
+    float ball_color[];  // place in the colour map's range, 0 to 1
+};
+vec4 color_of(uint ball) { return vec4(ball_color[ball], 0.0, 0.0, 1.0); }
+#endif
+#endif
+
+Surface surface_at(Ray ray, REAL t)
+{
+    REAL value = -level.x;
+    REAL3 gradient = REAL3(0.0);
+    vec4 color = vec4(0.0);
+    float weight = 0.0;
+    REAL least = FAR_AWAY;
+    EACH_ACTIVE(j) {
+        uint ball = active_ball(j);
+        REAL radius = ball_radius(ball);
+        REAL shrink = NUM(1.0) / radius;
+        least = min(least, radius);
+        REAL middle;
+        REAL3 offset = chord_offset(ball_centre(ball) - ray.start, ray.way, middle);
+        precise REAL3 from = ((t - middle) * ray.way - offset) * shrink; // from the centre, in radii
+        REAL u = min(dot(from, from), NUM(1.0));
+        REAL q = active_strength(j);
+        REAL part = q * density_value(KERNEL, u);
+        value += part;
+        gradient += q * density_slope_over_v(KERNEL, u) * shrink * from;
+#ifdef COLORS
+        weight += max(float(part), 0.0);
+        color += max(float(part), 0.0) * color_of(ball);
+#endif
+    }
+    Surface surface;
+    surface.radius = least;
+    REAL slope = dot(gradient, ray.way);
+    REAL size = sqrt(dot(gradient, gradient));
+    surface.shift = slope != NUM(0.0) ? -value / slope : NUM(0.0);
+    surface.normal = size > NUM(0.0) ? -gradient / size : -ray.way;
+    surface.color = weight > 0.0 ? color / weight : vec4(0.0);
+    return surface;
+}

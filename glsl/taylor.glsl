@@ -1,0 +1,66 @@
+// The true field of any kernel on one piece of the ray, by value, slope and a bound on the second derivative.
+//
+// From a point where f is known, f(s + h) <= f + f' h + M h^2 / 2 with M a bound on how fast the slopes can rise: stepping to where
+// that parabola first comes near L never passes a root. At a point inside the margin, f'^2 > 2 M' (what is missing) proves that f
+// rises through L right there, M' bounding the curvature of both signs.
+
+struct Slope {
+    REAL value, slope;  // of the field less L, turned so that the ray comes from below zero
+};
+
+Slope taylor_at(REAL s, REAL side)
+{
+    REAL value = NUM(0.0);
+    REAL slope = NUM(0.0);
+    EACH_ACTIVE(j) {
+        Chord chord = active_chord(j);
+        REAL q = active_strength(j);
+        REAL w = clamp((s - chord.a) * (chord.b - s) * chord.shrink, NUM(0.0), NUM(1.0));
+        REAL u = NUM(1.0) - w;
+        value += q * density_value(KERNEL, u);
+        slope += q * density_slope_over_v(KERNEL, u) * (s - NUM(0.5) * (chord.a + chord.b)) * chord.shrink;
+    }
+    Slope at;
+    at.value = side * (level.x - value);
+    at.slope = -side * slope;
+    return at;
+}
+
+int piece_solve(REAL s, REAL stop, REAL side, int steps, out REAL hit)
+{
+    REAL margin = NUM(0.0);  // of rounding
+    REAL peak = NUM(0.0);    // no more than this on the whole piece
+    REAL rise = NUM(0.0);    // bound on the second derivative where it helps f towards L
+    REAL bend = NUM(0.0);    // bound on its size
+    EACH_ACTIVE(j) {
+        Chord chord = active_chord(j);
+        REAL q = active_strength(j);
+        REAL middle = clamp(NUM(0.5) * (chord.a + chord.b), s, stop);
+        REAL most = clamp((middle - chord.a) * (chord.b - middle) * chord.shrink, NUM(0.0), NUM(1.0));
+        margin += abs(q) * density_slope_bound(KERNEL, most) * chord_reach(chord);
+        peak += max(q, NUM(0.0)) * density_value(KERNEL, NUM(1.0) - most);
+        REAL curve = abs(q) * density_curvature_bound(KERNEL) * chord.shrink;
+        bend += curve;
+        rise += q * side < NUM(0.0) ? abs(q) * density_rise_bound(KERNEL) * chord.shrink : curve;
+    }
+    margin *= TAU;
+    hit = s;
+    if (side < NUM(0.0) && peak + margin < level.x) return PIECE_NONE;
+    for (int step = 0; step < steps; step++) {
+        Slope at = taylor_at(s, side);
+        if (at.value >= NUM(-2.0) * margin) {
+            hit = s;
+            bool crosses = at.slope > NUM(0.0) && at.slope * at.slope > NUM(4.0) * bend * (NUM(3.0) * margin + abs(at.value));
+            return crosses && at.value <= NUM(2.0) * margin ? PIECE_HIT : PIECE_OPEN;
+        }
+        REAL lack = -margin - at.value;
+        REAL ahead = stop - s;
+        if (at.value + ahead * (at.slope + NUM(0.5) * rise * ahead) < -margin) return PIECE_NONE;
+        REAL root = sqrt(at.slope * at.slope + NUM(2.0) * rise * lack);
+        REAL h = at.slope > NUM(0.0) ? NUM(2.0) * lack / (at.slope + root) : (root - at.slope) / rise;
+        if (!(h < ahead)) return PIECE_NONE;
+        if (s + h == s) return PIECE_OPEN;
+        s += h;
+    }
+    return PIECE_CAP;
+}

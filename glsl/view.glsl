@@ -1,0 +1,56 @@
+// The camera, the level and the balls as a frame's uniforms and buffers; a pixel's ray.
+//
+// Coordinates are relative to the frame's origin o (the eye, or for a far eye the point of the field's box nearest to it), in the
+// axes of the scene. Pixels are GL's: (0.5, 0.5) is the centre of the lower left one.
+
+layout(std140, binding = 0) uniform View {
+    REAL4 corner;  // raw direction at pixel (0, 0): forward component 1
+    REAL4 step_x;  // its change a pixel
+    REAL4 step_y;
+    REAL4 start;   // where rays begin at pixel (0, 0), relative to o; used when FAR
+    REAL4 start_x;
+    REAL4 start_y;
+    REAL4 right;   // the camera's axes; right.w, up.w, forward.w: the eye relative to o along them
+    REAL4 up;
+    REAL4 forward;
+    REAL4 lens;    // cotangents of half the field of view across and up, width, height
+    REAL4 depth;   // 1 / range of effective distances, depth of the plane where rays begin, jitter in pixels x, y
+    REAL4 level;   // L, the radius of all balls, 1 / its square, reach: how far from o a ray begins at most
+    REAL4 core;    // core radius over R of every ball
+    REAL4 host;    // near, far of a host's projection, lower left corner of the view in its framebuffer
+};
+
+struct Ray {
+    REAL3 start;
+    REAL3 way; // unit
+};
+
+#ifdef FAR
+REAL view_reach;   // distance of the ray's start from o
+#else
+const REAL view_reach = NUM(0.0);
+#endif
+
+// The raw direction through a pixel position: its forward component is 1.
+REAL3 view_raw(vec2 pixel)
+{
+    REAL x = NUM(pixel.x) + depth.z;
+    REAL y = NUM(pixel.y) + depth.w;
+    return corner.xyz + x * step_x.xyz + y * step_y.xyz;
+}
+
+Ray view_ray(vec2 pixel)
+{
+    Ray ray;
+    precise REAL3 raw = view_raw(pixel);
+    precise REAL3 way = raw / sqrt(dot(raw, raw));
+    ray.way = way;
+#ifdef FAR
+    precise REAL3 from = start.xyz + (NUM(pixel.x) + depth.z) * start_x.xyz + (NUM(pixel.y) + depth.w) * start_y.xyz;
+    ray.start = from;
+    view_reach = sqrt(dot(from, from));
+#else
+    ray.start = REAL3(0.0);
+#endif
+    return ray;
+}

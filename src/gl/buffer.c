@@ -1,0 +1,48 @@
+#include "gl/buffer.h"
+
+#include "base/status.h"
+
+mns_status gl_buffer_reserve(gl_device *device, gl_buffer *buffer, const char *what, size_t size, size_t most,
+                             mns_error *error)
+{
+    const GladGLContext *gl = &device->gl;
+    if (most && size > most)
+        return status_fail(error, MNS_ERROR_UNSUPPORTED, "%s: %zu bytes are needed, this driver's blocks hold %zu", what,
+                           size, most);
+    if (buffer->id && buffer->size >= size) return MNS_OK;
+    size_t wanted = size + size / 4;
+    if (most && wanted > most) wanted = most;
+    if (wanted < 256) wanted = 256;
+    if (!buffer->id) gl->GenBuffers(1, &buffer->id);
+    gl->BindBuffer(GL_ARRAY_BUFFER, buffer->id);
+    gl->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)wanted, NULL, GL_DYNAMIC_DRAW);
+    gl->BindBuffer(GL_ARRAY_BUFFER, 0);
+    buffer->size = wanted;
+    mns_status status = gl_check(device, what, error);
+    if (status) gl_buffer_free(device, buffer);
+    return status;
+}
+
+void gl_buffer_free(gl_device *device, gl_buffer *buffer)
+{
+    if (buffer->id) device->gl.DeleteBuffers(1, &buffer->id);
+    *buffer = (gl_buffer){0};
+}
+
+mns_status gl_buffer_map(gl_device *device, gl_buffer *buffer, size_t size, void **data, mns_error *error)
+{
+    const GladGLContext *gl = &device->gl;
+    gl->BindBuffer(GL_ARRAY_BUFFER, buffer->id);
+    *data = gl->MapBufferRange(GL_ARRAY_BUFFER, 0, (GLsizeiptr)size, GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+    gl->BindBuffer(GL_ARRAY_BUFFER, 0);
+    return *data ? MNS_OK : status_no_memory(error, "while mapping a buffer");
+}
+
+bool gl_buffer_unmap(gl_device *device, gl_buffer *buffer)
+{
+    const GladGLContext *gl = &device->gl;
+    gl->BindBuffer(GL_ARRAY_BUFFER, buffer->id);
+    bool kept = gl->UnmapBuffer(GL_ARRAY_BUFFER);
+    gl->BindBuffer(GL_ARRAY_BUFFER, 0);
+    return kept;
+}

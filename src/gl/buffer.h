@@ -1,0 +1,22 @@
+/* Buffers that grow and never shrink, so that a steady scene allocates nothing. */
+#ifndef MNS_GL_BUFFER_H
+#define MNS_GL_BUFFER_H
+
+#include "gl/device.h"
+
+typedef struct gl_buffer {
+    GLuint id; /* 0: not made */
+    size_t size;
+} gl_buffer;
+
+/* At least `size` bytes, contents lost when it grows. Grows by a quarter more than asked, up to `most` bytes (0: no bound).
+ * Errors: MEMORY, UNSUPPORTED (size > most). */
+mns_status gl_buffer_reserve(gl_device *device, gl_buffer *buffer, const char *what, size_t size, size_t most,
+                             mns_error *error);
+void gl_buffer_free(gl_device *device, gl_buffer *buffer);
+/* Maps the first `size` bytes for writing, what was there lost. Errors: MEMORY. */
+mns_status gl_buffer_map(gl_device *device, gl_buffer *buffer, size_t size, void **data, mns_error *error);
+/* False where the driver lost the contents meanwhile: map and write again. */
+bool gl_buffer_unmap(gl_device *device, gl_buffer *buffer);
+
+#endif

@@ -1,0 +1,119 @@
+/* Textures, framebuffers and buffers of the list passes. */
+#include "list/passes.h"
+#include "list/uniforms.h"
+
+static void texture_make(gl_device *device, GLuint *texture, GLenum format, int width, int height)
+{
+    const GladGLContext *gl = &device->gl;
+    if (!*texture) gl->GenTextures(1, texture);
+    gl->BindTexture(GL_TEXTURE_2D, *texture);
+    bool integer = format == GL_R32UI;
+    gl->TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, integer ? GL_RED_INTEGER : GL_DEPTH_COMPONENT,
+                   integer ? GL_UNSIGNED_INT : GL_FLOAT, NULL);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl->BindTexture(GL_TEXTURE_2D, 0);
+}
+
+static void target_make(gl_device *device, GLuint *target, GLenum attachment, GLuint texture)
+{
+    const GladGLContext *gl = &device->gl;
+    if (!*target) gl->GenFramebuffers(1, target);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, *target);
+    gl->FramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture, 0);
+    GLenum none = GL_NONE, color = GL_COLOR_ATTACHMENT0;
+    gl->DrawBuffers(1, attachment == GL_COLOR_ATTACHMENT0 ? &color : &none);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+/* A framebuffer with no attachment: fragments run for their stores alone. */
+static void target_make_bare(gl_device *device, GLuint *target, int width, int height)
+{
+    const GladGLContext *gl = &device->gl;
+    if (!*target) gl->GenFramebuffers(1, target);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, *target);
+    gl->FramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_WIDTH, width);
+    gl->FramebufferParameteri(GL_FRAMEBUFFER, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height);
+    GLenum none = GL_NONE;
+    gl->DrawBuffers(1, &none);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+static mns_status buffers(list_passes *p, gl_device *device, const mns_plan *plan, mns_error *error)
+{
+    size_t pixels = (size_t)p->width * (size_t)p->height;
+    size_t block = plan->limits.max_storage_block;
+    struct {
+        gl_buffer *buffer;
+        const char *what;
+        size_t size;
+    } wanted[] = {
+        {&p->nodes, "node pool", plan->pool_nodes * 8},
+        {&p->counter, "node counter", sizeof(uint32_t)},
+        {&p->redo, "list of pixels to resolve", sizeof(list_counts) + pixels * sizeof(uint32_t)},
+        {&p->view, "view", VIEW_VECTORS * 4 * sizeof(float)},
+    };
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+        mns_status status =
+            gl_buffer_reserve(device, wanted[i].buffer, wanted[i].what, wanted[i].size, block, error);
+        if (status) return status;
+    }
+    if (!(plan->features & FEATURE_FAR)) return MNS_OK;
+    return gl_buffer_reserve(device, &p->far_block, "far view", FAR_VECTORS * 4 * sizeof(double), block, error);
+}
+
+mns_status list_passes_prepare(list_passes *p, gl_device *device, const mns_plan *plan, mns_error *error)
+{
+    const GladGLContext *gl = &device->gl;
+    int width = plan->frame.width, height = plan->frame.height;
+    bool depth = plan->features & (FEATURE_CORE | FEATURE_HOST), host = plan->features & FEATURE_HOST;
+    bool resized = width != p->width || height != p->height;
+    if (!p->vertex_array) gl->GenVertexArrays(1, &p->vertex_array);
+    if (resized || !p->heads) {
+        texture_make(device, &p->heads, GL_R32UI, width, height);
+        target_make(device, &p->heads_target, GL_COLOR_ATTACHMENT0, p->heads);
+    }
+    if (depth && (resized || !p->core_depth)) {
+        texture_make(device, &p->core_depth, GL_DEPTH_COMPONENT32F, width, height);
+        target_make(device, &p->depth_target, GL_DEPTH_ATTACHMENT, p->core_depth);
+    }
+    if (resized || !p->bare_target) target_make_bare(device, &p->bare_target, width, height);
+    if (host && (resized || !p->host_depth)) texture_make(device, &p->host_depth, GL_DEPTH_COMPONENT32F, width, height);
+    p->width = width;
+    p->height = height;
+    mns_status status = buffers(p, device, plan, error);
+    p->node_capacity = p->nodes.size / 8 < plan->pool_most ? p->nodes.size / 8 : plan->pool_most;
+    return status ? status : gl_check(device, "list buffers", error);
+}
+
+void list_passes_free(list_passes *p, gl_device *device)
+{
+    const GladGLContext *gl = &device->gl;
+    gl_buffer *all[] = {&p->balls,   &p->balls_low, &p->cores, &p->colors,    &p->nodes,
+                        &p->counter, &p->redo,      &p->view,  &p->view_wide, &p->far_block};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) gl_buffer_free(device, all[i]);
+    GLuint textures[] = {p->heads, p->core_depth, p->host_depth};
+    GLuint targets[] = {p->heads_target, p->depth_target, p->bare_target};
+    gl->DeleteTextures(3, textures);
+    gl->DeleteFramebuffers(3, targets);
+    gl->DeleteVertexArrays(1, &p->vertex_array);
+    *p = (list_passes){0};
+}
+
+mns_status list_passes_compile(gl_device *device, gl_programs *programs, const mns_plan *plan,
+                               GLuint program[SHADER_COUNT], mns_error *error)
+{
+    for (int i = 0; i < SHADER_COUNT; i++) {
+        char defines[PLAN_DEFINES];
+        gl_shader shader = {.defines = defines};
+        program[i] = 0;
+        /* What only some pixels or balls may need is compiled when they do. */
+        if (!plan_needs(plan, i) || i == SHADER_RESOLVE) continue;
+        plan_shader_files(i, &shader.vertex, &shader.fragment, &shader.compute);
+        plan_shader_defines(plan, i, defines);
+        mns_status status = gl_program_get(device, programs, &shader, &program[i], error);
+        if (status) return status;
+    }
+    return MNS_OK;
+}

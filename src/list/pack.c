@@ -1,0 +1,81 @@
+#include "list/pack.h"
+
+#include "field/kernel.h"
+#include "shade/palette.h"
+
+#include <string.h>
+
+static const list_ball *ball_at(const list_order *order, size_t place)
+{
+    return &order->ball[(uint32_t)order->key[place]];
+}
+
+/* A double as the float nearest to it, forced through memory: one compiler kept the wider value in a register. */
+static float rounded(double value)
+{
+    volatile float f = (float)value;
+    return f;
+}
+
+void list_pack_high(const list_order *order, const mns_field *field, const mns_plan *plan, float *out)
+{
+    size_t stride = plan->ball_floats;
+    bool radii = plan->features & FEATURE_RADII, strengths = plan->features & FEATURE_STRENGTHS;
+#pragma omp parallel for if (order->count > 4096)
+    for (size_t place = 0; place < order->count; place++) {
+        const list_ball *ball = ball_at(order, place);
+        float *to = out + place * stride;
+        memcpy(to, ball->position, sizeof ball->position);
+        if (radii) to[3] = (float)field->p.radius[ball->index];
+        if (strengths) to[stride - 1] = (float)field->p.strength[ball->index];
+    }
+}
+
+void list_pack_low(const list_order *order, const mns_field *field, const mns_plan *plan, float *out)
+{
+    size_t stride = plan->ball_floats;
+    bool radii = plan->features & FEATURE_RADII, strengths = plan->features & FEATURE_STRENGTHS;
+#pragma omp parallel for if (order->count > 4096)
+    for (size_t place = 0; place < order->count; place++) {
+        const list_ball *ball = ball_at(order, place);
+        float *to = out + place * stride;
+        for (int axis = 0; axis < 3; axis++) {
+            double exact = field->p.axis[axis][ball->index] - plan->origin[axis];
+            to[axis] = (float)(exact - (double)ball->position[axis]);
+        }
+        if (radii) {
+            double exact = field->p.radius[ball->index];
+            to[3] = (float)(exact - (double)rounded(exact));
+        }
+        if (strengths) {
+            double exact = field->p.strength[ball->index];
+            to[stride - 1] = (float)(exact - (double)rounded(exact));
+        }
+    }
+}
+
+void list_pack_cores(const list_order *order, const mns_field *field, float *out)
+{
+#pragma omp parallel for if (order->count > 4096)
+    for (size_t place = 0; place < order->count; place++) {
+        uint32_t index = ball_at(order, place)->index;
+        double q = field_strength(field, index);
+        double ratio = q > field->iso ? kernel_core_radius(field->kernel, field->iso / q) : 0;
+        out[place] = (float)(field_radius(field, index) * ratio);
+    }
+}
+
+void list_pack_colors(const list_order *order, const mns_field *field, const mns_plan *plan, void *out)
+{
+    const particles_column *column = &field->p.column[plan->color_column];
+    bool elements = strcmp(column->name, "element") == 0;
+    double low = plan->color_range[0], span = plan->color_range[1] - low;
+#pragma omp parallel for if (order->count > 4096)
+    for (size_t place = 0; place < order->count; place++) {
+        double value = column->value[ball_at(order, place)->index];
+        if (!(plan->features & FEATURE_LABELS))
+            ((float *)out)[place] = span != 0 ? (float)((value - low) / span) : 0.5f;
+        else
+            ((uint32_t *)out)[place] = palette_label(column->label[(size_t)value], (size_t)value, elements);
+    }
+}

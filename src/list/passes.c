@@ -1,0 +1,196 @@
+#include "list/passes.h"
+
+#include <stddef.h>
+
+enum { UNIFORM_FIRST_BALL = 0, UNIFORM_CAPACITY = 1, UNIFORM_SEED = 0 };
+
+static void scissor(gl_device *device, const list_passes *p, list_region region)
+{
+    device->gl.Viewport(0, 0, p->width, p->height);
+    device->gl.Enable(GL_SCISSOR_TEST);
+    device->gl.Scissor(region.x, region.y, region.width, region.height);
+}
+
+/* The vertex array reads balls [first, ...): a vertex each for points, an instance each for rectangles. */
+static void attributes(list_passes *p, gl_device *device, const mns_plan *plan, size_t first, bool instanced)
+{
+    const GladGLContext *gl = &device->gl;
+    size_t stride = plan->ball_floats * sizeof(float), at = first * stride;
+    gl->BindVertexArray(p->vertex_array);
+    gl->BindBuffer(GL_ARRAY_BUFFER, p->balls.id);
+    gl->EnableVertexAttribArray(0);
+    gl->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, (GLsizei)stride, (const void *)at);
+    gl->VertexAttribDivisor(0, instanced);
+    if (plan->features & FEATURE_RADII) {
+        gl->EnableVertexAttribArray(1);
+        gl->VertexAttribPointer(1, 1, GL_FLOAT, GL_FALSE, (GLsizei)stride, (const void *)(at + 3 * sizeof(float)));
+        gl->VertexAttribDivisor(1, instanced);
+    } else {
+        gl->DisableVertexAttribArray(1);
+    }
+    if (plan->features & FEATURE_CORE_RADII) {
+        gl->BindBuffer(GL_ARRAY_BUFFER, p->cores.id);
+        gl->EnableVertexAttribArray(2);
+        gl->VertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, 0, (const void *)(first * sizeof(float)));
+        gl->VertexAttribDivisor(2, instanced);
+    } else {
+        gl->DisableVertexAttribArray(2);
+    }
+    gl->BindBuffer(GL_ARRAY_BUFFER, 0);
+}
+
+/* Every ball in view as its rectangle or point, nearest first. */
+static void draw_balls(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order, GLuint quads,
+                       GLuint points, bool capacity)
+{
+    const GladGLContext *gl = &device->gl;
+    if (order->quads) {
+        gl->UseProgram(quads);
+        gl->Uniform1ui(UNIFORM_FIRST_BALL, 0);
+        if (capacity) gl->Uniform1ui(UNIFORM_CAPACITY, (GLuint)p->node_capacity);
+        attributes(p, device, plan, 0, true);
+        gl->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)order->quads);
+    }
+    if (order->count > order->quads) {
+        gl->UseProgram(points);
+        if (capacity) gl->Uniform1ui(UNIFORM_CAPACITY, (GLuint)p->node_capacity);
+        attributes(p, device, plan, 0, false);
+        gl->DrawArrays(GL_POINTS, (GLint)order->quads, (GLsizei)(order->count - order->quads));
+    }
+    gl->BindVertexArray(0);
+}
+
+static void draw_screen(list_passes *p, gl_device *device, GLuint program)
+{
+    const GladGLContext *gl = &device->gl;
+    gl->UseProgram(program);
+    gl->BindVertexArray(p->vertex_array);
+    for (GLuint i = 0; i < 3; i++) gl->DisableVertexAttribArray(i);
+    gl->DrawArrays(GL_TRIANGLES, 0, 3);
+    gl->BindVertexArray(0);
+}
+
+void list_core_depth(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
+                     const GLuint program[SHADER_COUNT], list_region region)
+{
+    const GladGLContext *gl = &device->gl;
+    const GLfloat farthest = 1;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, p->depth_target);
+    scissor(device, p, region);
+    gl->DepthMask(GL_TRUE);
+    gl->ClearBufferfv(GL_DEPTH, 0, &farthest);
+    gl->Enable(GL_DEPTH_TEST);
+    gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view.id);
+    if (plan->features & FEATURE_HOST) {
+        gl->DepthFunc(GL_ALWAYS);
+        gl->ActiveTexture(GL_TEXTURE0);
+        gl->BindTexture(GL_TEXTURE_2D, p->host_depth);
+        draw_screen(p, device, program[SHADER_HOST_DEPTH]);
+    }
+    if (!(plan->features & FEATURE_CORE)) return;
+    gl->DepthFunc(GL_LESS);
+    draw_balls(p, device, plan, order, program[SHADER_CORE_QUADS], program[SHADER_CORE_POINTS], false);
+}
+
+size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
+                   const GLuint program[SHADER_COUNT], list_region region)
+{
+    const GladGLContext *gl = &device->gl;
+    bool tested = plan->features & (FEATURE_CORE | FEATURE_HOST), paper = plan->features & FEATURE_PAPER;
+    const GLuint none[4] = {0xffffffffu, 0, 0, 0}, zero = 0;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, p->heads_target);
+    scissor(device, p, region);
+    gl->ClearBufferuiv(GL_COLOR, 0, none);
+    gl->BindBuffer(GL_ATOMIC_COUNTER_BUFFER, p->counter.id);
+    gl->BufferSubData(GL_ATOMIC_COUNTER_BUFFER, 0, sizeof zero, &zero);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, tested && !paper ? p->depth_target : p->bare_target);
+    gl->DepthMask(GL_FALSE); /* early tests would write depth even for discarded fragments */
+    gl->DepthFunc(GL_LEQUAL);
+    if (tested && !paper)
+        gl->Enable(GL_DEPTH_TEST);
+    else
+        gl->Disable(GL_DEPTH_TEST);
+    if (tested && paper) {
+        gl->ActiveTexture(GL_TEXTURE1);
+        gl->BindTexture(GL_TEXTURE_2D, p->core_depth);
+    }
+    gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view.id);
+    gl->BindBufferBase(GL_ATOMIC_COUNTER_BUFFER, 0, p->counter.id);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, p->nodes.id);
+    gl->BindImageTexture(0, p->heads, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
+    gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    draw_balls(p, device, plan, order, program[SHADER_GATHER_QUADS], program[SHADER_GATHER_POINTS], true);
+    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                      GL_ATOMIC_COUNTER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    GLuint wanted = 0;
+    gl->GetBufferSubData(GL_ATOMIC_COUNTER_BUFFER, 0, sizeof wanted, &wanted);
+    gl->Disable(GL_DEPTH_TEST);
+    return wanted;
+}
+
+void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT])
+{
+    const GladGLContext *gl = &device->gl;
+    gl->UseProgram(program[SHADER_SHUFFLE]);
+    gl->Uniform1ui(UNIFORM_SEED, plan->options.shuffle);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, p->nodes.id);
+    gl->BindImageTexture(0, p->heads, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
+    gl->DispatchCompute((GLuint)(p->width + 7) / 8, (GLuint)(p->height + 7) / 8, 1);
+    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+/* What both the cast and resolve read. */
+static void bind_lists(list_passes *p, gl_device *device)
+{
+    const GladGLContext *gl = &device->gl;
+    if (p->far_block.id) gl->BindBufferBase(GL_UNIFORM_BUFFER, 1, p->far_block.id);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, p->balls.id);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, p->nodes.id);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, p->redo.id);
+    if (p->colors.id) gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, p->colors.id);
+    gl->BindImageTexture(0, p->heads, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
+    gl->ActiveTexture(GL_TEXTURE0);
+    gl->BindTexture(GL_TEXTURE_2D, p->host_depth);
+}
+
+static void read_counts(list_passes *p, gl_device *device, list_counts *counts)
+{
+    const GladGLContext *gl = &device->gl;
+    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
+    gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof *counts, counts);
+}
+
+void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],
+               GLuint target, list_region region, list_counts *counts)
+{
+    const GladGLContext *gl = &device->gl;
+    const list_counts none = {0};
+    (void)plan;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, target);
+    scissor(device, p, region);
+    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
+    gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof none, &none);
+    gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view.id);
+    bind_lists(p, device);
+    draw_screen(p, device, program[SHADER_CAST]);
+    read_counts(p, device, counts);
+}
+
+void list_resolve(list_passes *p, gl_device *device, GLuint program, const GLuint plane[3], uint32_t redo,
+                  list_counts *counts)
+{
+    const GladGLContext *gl = &device->gl;
+    gl->UseProgram(program);
+    gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view_wide.id);
+    bind_lists(p, device);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, p->balls_low.id);
+    gl->BindImageTexture(1, plane[0], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
+    gl->BindImageTexture(2, plane[1], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
+    if (plane[2]) gl->BindImageTexture(3, plane[2], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    gl->DispatchCompute((redo + RESOLVE_GROUP - 1) / RESOLVE_GROUP, 1, 1);
+    gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
+                      GL_PIXEL_BUFFER_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    read_counts(p, device, counts);
+}

@@ -1,0 +1,54 @@
+/* The GL passes of the list method, over one region of the frame. */
+#ifndef MNS_LIST_PASSES_H
+#define MNS_LIST_PASSES_H
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "list/order.h"
+
+typedef struct list_region {
+    int x, y, width, height; /* GL pixels: from the lower left */
+} list_region;
+
+/* What a cast leaves to be read, as in glsl/redo.glsl. */
+typedef struct list_counts {
+    uint32_t redo, refilled, active, steps, undecided_float, undecided, spare[2];
+} list_counts;
+
+/* The GL objects of the list method; zeroed is empty. Textures are of the frame's size. */
+typedef struct list_passes {
+    gl_buffer balls, balls_low, cores, colors, nodes, counter, redo, view, view_wide, far_block;
+    GLuint heads, core_depth, host_depth; /* textures */
+    GLuint heads_target, depth_target, bare_target; /* framebuffers */
+    GLuint vertex_array;
+    int width, height;
+    size_t node_capacity;
+} list_passes;
+
+/* Makes or resizes what the plan needs, and no more. Errors: MEMORY, GL. */
+mns_status list_passes_prepare(list_passes *p, gl_device *device, const mns_plan *plan, mns_error *error);
+void list_passes_free(list_passes *p, gl_device *device);
+
+/* Compiles (or finds) the plan's programs that `order` makes needed. */
+mns_status list_passes_compile(gl_device *device, gl_programs *programs, const mns_plan *plan,
+                               GLuint program[SHADER_COUNT], mns_error *error);
+
+/* Clears depth and lays down the host's (plan HOST) and the cores' (plan CORE). */
+void list_core_depth(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
+                     const GLuint program[SHADER_COUNT], list_region region);
+
+/* Gathers the lists of a region. Returns the nodes wanted, which may be more than the pool held: then gather again. */
+size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
+                   const GLuint program[SHADER_COUNT], list_region region);
+
+void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT]);
+
+/* Casts a region into `target` (t, normal, color planes) and tells what is left to resolve. */
+void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],
+               GLuint target, list_region region, list_counts *counts);
+
+/* Solves `redo` pixels again in doubles into the planes' textures (t, normal, color or 0). Needs balls_low. */
+void list_resolve(list_passes *p, gl_device *device, GLuint program, const GLuint plane[3], uint32_t redo,
+                  list_counts *counts);
+
+#endif

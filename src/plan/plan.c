@@ -1,0 +1,274 @@
+#include "plan/plan.h"
+
+#include "base/status.h"
+#include "field/kernel.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Of OpenGL 4.3: the least that every driver offers. */
+static const mns_limits least_limits = {
+    .max_storage_block = 1u << 24,
+    .max_texture_size = 16384,
+    .max_viewport = {16384, 16384},
+    .max_point_size = 1,
+};
+
+/* A far eye: float rays would be off by more than detail before they reach the field (DESIGN, law 1). */
+#define FAR_RADII 30.0
+
+static void leave_out(mns_plan *plan, const char *part, const char *reason)
+{
+    if (plan->left_out_count < PLAN_PARTS) plan->left_out[plan->left_out_count++] = (mns_left_out){part, reason};
+}
+
+static mns_status check_options(const mns_options *options, mns_error *error)
+{
+    if (options->method != MNS_METHOD_AUTO && options->method != MNS_METHOD_LIST)
+        return status_fail(error, MNS_ERROR_USAGE, "options: method %d is not in this build; take list", options->method);
+    if ((unsigned)options->solver > MNS_SOLVER_CUBIC_MONOMIAL)
+        return status_fail(error, MNS_ERROR_USAGE, "options: no solver %d", options->solver);
+    if ((unsigned)options->gather > MNS_GATHER_PAPER)
+        return status_fail(error, MNS_ERROR_USAGE, "options: no gather %d", options->gather);
+    if (options->samples < 0 || options->samples > 64)
+        return status_fail(error, MNS_ERROR_USAGE, "options: %d samples a pixel; take 1 to 64", options->samples);
+    if (options->window < 0 || options->window > 256 || options->active < 0 || options->active > 256)
+        return status_fail(error, MNS_ERROR_USAGE, "options: window and active hold 1 to 256 balls");
+    if (options->root_steps < 0 || options->root_steps > 4096)
+        return status_fail(error, MNS_ERROR_USAGE, "options: %d root steps; take 1 to 4096", options->root_steps);
+    return MNS_OK;
+}
+
+static void resolve_options(const mns_options *options, mns_plan *plan)
+{
+    mns_options *o = &plan->options;
+    *o = options ? *options : (mns_options){0};
+    o->method = MNS_METHOD_LIST;
+    if (!o->samples) o->samples = 1;
+    if (!o->window) o->window = plan->limits.is_software ? 64 : 24;
+    if (!o->active) o->active = plan->limits.is_software ? 64 : 24;
+    if (!o->root_steps) o->root_steps = 48;
+    plan->method_reason = options && options->method == MNS_METHOD_LIST ? "asked for" : "auto: the method of this build";
+}
+
+static void plan_balls(mns_plan *plan, const mns_field *field)
+{
+    if (field->p.radius)
+        plan->features |= FEATURE_RADII;
+    else
+        leave_out(plan, "a radius a ball", "all are equal");
+    if (field->p.strength && (field->strength_min != 1 || field->strength_max != 1))
+        plan->features |= FEATURE_STRENGTHS;
+    else
+        leave_out(plan, "a strength a ball", "all are 1");
+    plan->ball_floats = 3 + (plan->features & FEATURE_RADII ? 1 : 0) + (plan->features & FEATURE_STRENGTHS ? 1 : 0);
+}
+
+static void plan_eye(mns_plan *plan, const mns_field *field)
+{
+    const plan_facts *facts = &plan->facts;
+    vec3 origin = plan->frame.eye;
+    if (facts->eye_in_ball)
+        plan->features |= FEATURE_EYE_IN_BALL;
+    else
+        leave_out(plan, "rays that start inside a ball", "the eye is outside every effective sphere");
+    if (facts->eye_value >= field->iso)
+        plan->features |= FEATURE_EYE_INSIDE;
+    else
+        leave_out(plan, "the way out of the surface", "f(eye) < L");
+    if (facts->eye_distance > FAR_RADII * field->radius_max) {
+        plan->features |= FEATURE_FAR;
+        origin = vec3_load(facts->nearest_point);
+        plan->plane_depth = facts->plane_depth * (1 - 1e-9);
+    } else {
+        leave_out(plan, "rays that begin at the box", "the eye is within 30 radii of the field's box");
+    }
+    vec3_store(plan->origin, origin);
+    plan->depth_range = fmax(facts->farthest - plan->plane_depth, 1e-300) * 1.0001;
+    /* A little beyond the frame's corners: samples are jittered by up to a pixel. */
+    const view_frame *frame = &plan->frame;
+    double up = plan->plane_depth * frame->tan_half * (1 + 2.0 / frame->height);
+    double across = up * (frame->width + 2.0) / frame->height;
+    for (int corner = 0; corner < 4 && plan->features & FEATURE_FAR; corner++) {
+        vec3 at = vec3_along(frame->eye, plan->plane_depth, frame->forward);
+        at = vec3_along(at, corner & 1 ? across : -across, frame->right);
+        at = vec3_along(at, corner & 2 ? up : -up, frame->up);
+        plan->reach = fmax(plan->reach, vec3_length(vec3_sub(at, origin)));
+    }
+}
+
+static void plan_core(mns_plan *plan, const mns_field *field)
+{
+    const plan_facts *facts = &plan->facts;
+    if (!field->p.count)
+        leave_out(plan, "core depth", "there are no balls");
+    else if (facts->strongest <= field->iso)
+        leave_out(plan, "core depth", "no ball alone reaches L");
+    else if (facts->negative)
+        leave_out(plan, "core depth", "a negative strength could carve a core");
+    else if (facts->eye_value >= field->iso)
+        leave_out(plan, "core depth", "f(eye) >= L: the way out may lie behind a core");
+    else
+        plan->features |= FEATURE_CORE;
+    if (!(plan->features & FEATURE_CORE)) return;
+    if (plan->features & FEATURE_STRENGTHS)
+        plan->features |= FEATURE_CORE_RADII;
+    else
+        plan->core_ratio = kernel_core_radius(field->kernel, field->iso);
+}
+
+/* Points for balls that fit one: a vertex each instead of four. */
+static void plan_billboards(mns_plan *plan, const mns_field *field)
+{
+    double cot = plan->frame.height / (2 * plan->frame.tan_half);
+    double nearest = fmax(plan->facts.plane_depth, 0);
+    double most = nearest > 0 ? 2.2 * field->radius_max * cot / nearest + 2 : INFINITY;
+    bool points = plan->limits.max_point_size >= 4;
+    if (points) plan->features |= FEATURE_POINTS;
+    if (!points || most >= plan->limits.max_point_size) plan->features |= FEATURE_QUADS;
+    if (!points) leave_out(plan, "points for small balls", "this driver's points are too small");
+    if (!(plan->features & FEATURE_QUADS)) leave_out(plan, "rectangles for large balls", "every ball fits a point");
+}
+
+static void plan_rest(mns_plan *plan, bool host)
+{
+    const mns_options *options = &plan->options;
+    if (host)
+        plan->features |= FEATURE_HOST;
+    else
+        leave_out(plan, "a host's depth", "no host framebuffer");
+    if (options->gather == MNS_GATHER_PAPER) plan->features |= FEATURE_PAPER;
+    if (options->shuffle) plan->features |= FEATURE_SHUFFLE;
+    if (options->samples > 1)
+        plan->features |= FEATURE_SAMPLES;
+    else
+        leave_out(plan, "samples beside the centre", "one sample a pixel");
+    if (options->solver != MNS_SOLVER_EXACT)
+        leave_out(plan, "certification", "the solver is a model of the field");
+    if (plan->limits.has_clip_control) plan->features |= FEATURE_CLIP_ZERO;
+    if (!(plan->features & FEATURE_COLORS)) leave_out(plan, "colours of balls", "one colour for all");
+    if (!(plan->features & FEATURE_CEL)) leave_out(plan, "cel bands", "smooth shading");
+    if (!(plan->features & FEATURE_DIRECTIONAL)) leave_out(plan, "a light of its own", "the light is at the eye");
+    if (!(plan->features & FEATURE_SPECULAR)) leave_out(plan, "specular", "its strength is 0");
+    leave_out(plan, "FBVH", "no secondary rays are asked for");
+    leave_out(plan, "balls outside the view", "they cannot be seen");
+}
+
+static void plan_passes(mns_plan *plan)
+{
+    uint64_t f = plan->features;
+    struct {
+        const char *name;
+        bool wanted;
+    } all[] = {
+        {"sort", true},
+        {"upload", true},
+        {"host_depth", f & FEATURE_HOST},
+        {"core_depth", f & FEATURE_CORE},
+        {"gather", true},
+        {"shuffle", f & FEATURE_SHUFFLE},
+        {"cast", true},
+        {"resolve", true},
+        {"shade", true},
+        {"host_draw", f & FEATURE_HOST},
+    };
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (all[i].wanted) plan->pass[plan->pass_count++] = all[i].name;
+}
+
+static void plan_pool(mns_plan *plan, const mns_field *field)
+{
+    size_t pixels = (size_t)plan->frame.width * (size_t)plan->frame.height;
+    plan->pool_most = plan->limits.max_storage_block / 8;
+    if (plan->options.max_pool_nodes && plan->options.max_pool_nodes < plan->pool_most)
+        plan->pool_most = plan->options.max_pool_nodes;
+    plan->pool_nodes = pixels * 4 < 65536 ? 65536 : pixels * 4;
+    if (!field->p.count) plan->pool_nodes = 1;
+    if (plan->pool_nodes > plan->pool_most) plan->pool_nodes = plan->pool_most;
+}
+
+static mns_status check_limits(const mns_plan *plan, const mns_field *field, mns_error *error)
+{
+    const mns_limits *limits = &plan->limits;
+    int width = plan->frame.width, height = plan->frame.height;
+    int most_x = limits->max_texture_size < limits->max_viewport[0] ? limits->max_texture_size : limits->max_viewport[0];
+    int most_y = limits->max_texture_size < limits->max_viewport[1] ? limits->max_texture_size : limits->max_viewport[1];
+    if (width > most_x || height > most_y)
+        return status_fail(error, MNS_ERROR_UNSUPPORTED, "size %dx%d: this driver draws at most %dx%d", width, height,
+                           most_x, most_y);
+    size_t most = limits->max_storage_block / (plan->ball_floats * sizeof(float));
+    if (field->p.count > most || field->p.count > 0x7fffffff)
+        return status_fail(error, MNS_ERROR_UNSUPPORTED, "%zu balls: this driver's storage blocks hold %zu of this field",
+                           field->p.count, most);
+    return MNS_OK;
+}
+
+mns_status plan_make(const mns_field *field, const mns_view *view, const mns_look *look, const mns_options *options,
+                     const mns_limits *limits, bool host, mns_plan **result, mns_error *error)
+{
+    if (!field || !result) return status_fail(error, MNS_ERROR_USAGE, "plan: the field is NULL");
+    mns_plan *plan = calloc(1, sizeof *plan);
+    if (!plan) return status_no_memory(error, "while planning a frame");
+    plan->limits = limits ? *limits : least_limits;
+    mns_status status = options ? check_options(options, error) : MNS_OK;
+    if (!status) status = mns_view_resolve(view, field, &plan->view, error);
+    if (status) goto fail;
+    view_basis(&plan->view, &plan->frame);
+    resolve_options(options, plan);
+    plan->features = (uint64_t)field->kernel | (uint64_t)plan->options.solver << 3;
+    plan_facts_of(field, &plan->frame, &plan->facts);
+    plan_balls(plan, field);
+    plan_eye(plan, field);
+    plan_core(plan, field);
+    plan_billboards(plan, field);
+    status = plan_look(look, field, plan, error);
+    if (!status) status = check_limits(plan, field, error);
+    if (status) goto fail;
+    plan_rest(plan, host);
+    plan_passes(plan);
+    plan_pool(plan, field);
+    if (!plan_explain(plan, field)) {
+        status = status_no_memory(error, "while planning a frame");
+        goto fail;
+    }
+    *result = plan;
+    return MNS_OK;
+fail:
+    mns_plan_destroy(plan);
+    return status;
+}
+
+mns_status mns_plan_create(const mns_field *field, const mns_view *view, const mns_look *look,
+                           const mns_options *options, const mns_limits *limits, mns_plan **plan, mns_error *error)
+{
+    return plan_make(field, view, look, options, limits, false, plan, error);
+}
+
+void mns_plan_destroy(mns_plan *plan)
+{
+    if (!plan) return;
+    free(plan->text);
+    free(plan);
+}
+
+uint64_t mns_plan_features(const mns_plan *plan)
+{
+    return plan->features;
+}
+
+const char *const *mns_plan_passes(const mns_plan *plan, size_t *count)
+{
+    *count = plan->pass_count;
+    return plan->pass;
+}
+
+const mns_left_out *mns_plan_left_out(const mns_plan *plan, size_t *count)
+{
+    *count = plan->left_out_count;
+    return plan->left_out;
+}
+
+const char *mns_plan_text(const mns_plan *plan)
+{
+    return plan->text;
+}

@@ -1,0 +1,115 @@
+/* What one frame needs, decided before any GL: a feature mask, the passes in order, sizes, and what is left out and why. */
+#ifndef MNS_PLAN_PLAN_H
+#define MNS_PLAN_PLAN_H
+
+#include "field/field.h"
+#include "scene/view.h"
+
+/* One bit a capability; kernel and solver are numbers in the lowest bits. */
+enum plan_feature {
+    FEATURE_KERNEL = 0x7,          /* mns_kernel */
+    FEATURE_SOLVER = 0x18,         /* mns_solver << 3 */
+    FEATURE_RADII = 1 << 5,        /* a radius a ball */
+    FEATURE_STRENGTHS = 1 << 6,    /* a strength a ball */
+    FEATURE_CORE = 1 << 7,         /* core depth */
+    FEATURE_CORE_RADII = 1 << 8,   /* a core radius a ball, not the same part of every R */
+    FEATURE_PAPER = 1 << 9,        /* gather as the paper has it */
+    FEATURE_POINTS = 1 << 10,      /* small balls drawn as points */
+    FEATURE_QUADS = 1 << 11,       /* some ball may be too large for a point */
+    FEATURE_EYE_IN_BALL = 1 << 12, /* rays may start inside a ball */
+    FEATURE_EYE_INSIDE = 1 << 13,  /* f(eye) >= L: rays look for the exit */
+    FEATURE_FAR = 1 << 14,         /* rays begin on a plane at the field's box */
+    FEATURE_HOST = 1 << 15,        /* a host's depth clips, and its framebuffer is drawn on */
+    FEATURE_SHUFFLE = 1 << 16,     /* lists put in a random order, for tests */
+    FEATURE_COLORS = 1 << 17,      /* colour by a column */
+    FEATURE_LABELS = 1 << 18,      /* of labels (elements), not numbers */
+    FEATURE_CEL = 1 << 19,
+    FEATURE_DIRECTIONAL = 1 << 20, /* a light of its own, not at the eye */
+    FEATURE_SPECULAR = 1 << 21,
+    FEATURE_SAMPLES = 1 << 22,     /* more than one sample a pixel */
+    FEATURE_CLIP_ZERO = 1 << 23,   /* clip control: depth without the 2z - 1 */
+    FEATURE_COUNT = 24
+};
+
+enum { PLAN_MOST = 16 };  /* passes; parts left out are at most PLAN_PARTS */
+enum { PLAN_PARTS = 24 };
+
+/* What the decisions hang on; see plan_facts_of. */
+typedef struct plan_facts {
+    double eye_distance; /* from the box of the effective spheres; 0 inside */
+    bool eye_in_ball;
+    double eye_value;    /* f(eye) */
+    double strongest;    /* largest strength; 1 without strengths */
+    bool negative;       /* some strength below zero */
+    double farthest;     /* from the eye to the farthest corner of the box of the effective spheres */
+    double plane_depth;  /* depth along the view before which no effective sphere begins; at least 0 */
+    double nearest_point[3]; /* of that box to the eye */
+} plan_facts;
+
+struct mns_plan {
+    uint64_t features;
+    const char *pass[PLAN_MOST];
+    size_t pass_count;
+    mns_left_out left_out[PLAN_PARTS];
+    size_t left_out_count;
+    mns_limits limits;
+    mns_options options; /* resolved: no zeros where zero means a default */
+    mns_view view;
+    view_frame frame;
+    plan_facts facts;
+    double origin[3];    /* of the GPU's coordinates */
+    double plane_depth;  /* where rays begin, along the view; 0 at the eye */
+    double reach;        /* distance from the origin of the farthest ray start */
+    double depth_range;  /* largest effective distance beyond the plane */
+    double core_ratio;   /* core radius over R of every ball, where CORE without CORE_RADII */
+    mns_look look;       /* resolved */
+    size_t color_column; /* where COLORS */
+    double color_range[2];
+    size_t ball_floats;  /* a ball in the GPU's buffer */
+    size_t pool_nodes;   /* to begin with */
+    size_t pool_most;    /* allowed */
+    const char *method_reason;
+    char color_by[64];
+    char *text;
+};
+
+/* O(N) only where the eye is inside the box of the effective spheres. */
+void plan_facts_of(const mns_field *field, const view_frame *frame, plan_facts *facts);
+
+/* mns_plan_create with the knowledge that a host's framebuffer is drawn on. */
+mns_status plan_make(const mns_field *field, const mns_view *view, const mns_look *look, const mns_options *options,
+                     const mns_limits *limits, bool host, mns_plan **plan, mns_error *error);
+
+/* Fills view-independent defaults of a look and checks it against the field's columns. */
+mns_status plan_look(const mns_look *look, const mns_field *field, mns_plan *plan, mns_error *error);
+
+/* Writes plan->text. False: out of memory. */
+bool plan_explain(mns_plan *plan, const mns_field *field);
+
+/* The programs that a plan can need. */
+typedef enum plan_shader {
+    SHADER_CORE_QUADS = 0,
+    SHADER_CORE_POINTS,
+    SHADER_GATHER_QUADS,
+    SHADER_GATHER_POINTS,
+    SHADER_SHUFFLE,
+    SHADER_CAST,
+    SHADER_RESOLVE,
+    SHADER_SHADE,
+    SHADER_HOST_DEPTH,
+    SHADER_HOST_DRAW,
+    SHADER_COUNT
+} plan_shader;
+
+enum { PLAN_DEFINES = 2048 };
+
+/* The files of a program (see gl/program.h; NULL where it has no such stage) and the #define lines of this plan's variant, of
+ * only those features that the program reads, so that plans which differ elsewhere share it. */
+void plan_shader_files(plan_shader shader, const char **vertex, const char **fragment, const char **compute);
+void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[PLAN_DEFINES]);
+/* Whether the plan's frame may run that program. */
+bool plan_needs(const mns_plan *plan, plan_shader shader);
+
+enum { RESOLVE_GROUP = 8 }; /* invocations a group of the resolve pass */
+
+#endif

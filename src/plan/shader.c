@@ -1,0 +1,120 @@
+#include "plan/plan.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct shader_part {
+    const char *vertex, *fragment, *compute;
+    uint64_t reads; /* features that change its text */
+} shader_part;
+
+enum {
+    READS_BALL = FEATURE_KERNEL | FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_FAR,
+    READS_RAY = READS_BALL | FEATURE_SOLVER | FEATURE_EYE_IN_BALL | FEATURE_EYE_INSIDE | FEATURE_HOST | FEATURE_COLORS |
+                FEATURE_LABELS,
+    READS_BILLBOARD = FEATURE_RADII | FEATURE_FAR | FEATURE_CLIP_ZERO,
+};
+
+static const shader_part parts[SHADER_COUNT] = {
+    [SHADER_CORE_QUADS] = {"billboard.vert.glsl", "core.frag.glsl", NULL, READS_BILLBOARD | FEATURE_CORE_RADII},
+    [SHADER_CORE_POINTS] = {"billboard.vert.glsl", "core.frag.glsl", NULL, READS_BILLBOARD | FEATURE_CORE_RADII},
+    [SHADER_GATHER_QUADS] = {"billboard.vert.glsl", "gather.frag.glsl", NULL,
+                             READS_BILLBOARD | FEATURE_EYE_IN_BALL | FEATURE_PAPER | FEATURE_CORE | FEATURE_HOST},
+    [SHADER_GATHER_POINTS] = {"billboard.vert.glsl", "gather.frag.glsl", NULL,
+                              READS_BILLBOARD | FEATURE_EYE_IN_BALL | FEATURE_PAPER | FEATURE_CORE | FEATURE_HOST},
+    [SHADER_SHUFFLE] = {NULL, NULL, "shuffle.glsl", 0},
+    [SHADER_CAST] = {"screen.vert.glsl", "cast.glsl", NULL, READS_RAY},
+    [SHADER_RESOLVE] = {NULL, NULL, "resolve.glsl", READS_RAY & ~(uint64_t)FEATURE_SOLVER},
+    [SHADER_SHADE] = {"screen.vert.glsl", "shade.frag.glsl", NULL,
+                      FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_DIRECTIONAL | FEATURE_SPECULAR},
+    [SHADER_HOST_DEPTH] = {"screen.vert.glsl", "host_depth.frag.glsl", NULL, FEATURE_FAR},
+    [SHADER_HOST_DRAW] = {"screen.vert.glsl", "host_draw.frag.glsl", NULL, 0},
+};
+
+void plan_shader_files(plan_shader shader, const char **vertex, const char **fragment, const char **compute)
+{
+    *vertex = parts[shader].vertex;
+    *fragment = parts[shader].fragment;
+    *compute = parts[shader].compute;
+}
+
+static void add(char *defines, const char *name, int value)
+{
+    size_t used = strlen(defines);
+    snprintf(defines + used, PLAN_DEFINES - used, "#define %s %d\n", name, value);
+}
+
+static void add_features(char *defines, uint64_t f)
+{
+    static const struct {
+        uint64_t bit;
+        const char *name;
+    } names[] = {
+        {FEATURE_RADII, "RADII"},
+        {FEATURE_STRENGTHS, "STRENGTHS"},
+        {FEATURE_CORE_RADII, "CORE_RADII"},
+        {FEATURE_EYE_IN_BALL, "EYE_IN_BALL"},
+        {FEATURE_EYE_INSIDE, "EYE_INSIDE"},
+        {FEATURE_FAR, "FAR"},
+        {FEATURE_HOST, "HOST_DEPTH"},
+        {FEATURE_COLORS, "COLORS"},
+        {FEATURE_LABELS, "COLOR_LABELS"},
+        {FEATURE_CEL, "CEL"},
+        {FEATURE_DIRECTIONAL, "DIRECTIONAL"},
+        {FEATURE_SPECULAR, "SPECULAR"},
+        {FEATURE_CLIP_ZERO, "CLIP_ZERO_TO_ONE"},
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (f & names[i].bit) add(defines, names[i].name, 1);
+}
+
+/* Numbers that a walk along a ray is specialised by. */
+static void add_ray(const mns_plan *plan, plan_shader shader, char *defines, uint64_t f)
+{
+    add(defines, "KERNEL", (int)(f & FEATURE_KERNEL));
+    add(defines, "SIDE", f & FEATURE_EYE_INSIDE ? 1 : -1);
+    add(defines, "REDO_GROUP", RESOLVE_GROUP);
+    if (shader == SHADER_RESOLVE) {
+        add(defines, "MNS_DOUBLE", 1);
+        add(defines, "RESOLVE_STEPS", 2000);
+        return;
+    }
+    add(defines, "SOLVER_EXACT", MNS_SOLVER_EXACT);
+    add(defines, "SOLVER_CUBIC", MNS_SOLVER_CUBIC);
+    add(defines, "SOLVER", (int)((f & FEATURE_SOLVER) >> 3));
+    add(defines, "WINDOW_MAX", plan->options.window);
+    add(defines, "ACTIVE_MAX", plan->options.active);
+    add(defines, "ROOT_STEPS", plan->options.root_steps);
+}
+
+void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[PLAN_DEFINES])
+{
+    uint64_t f = plan->features & parts[shader].reads;
+    defines[0] = '\0';
+    if (shader == SHADER_CAST || shader == SHADER_RESOLVE) add_ray(plan, shader, defines, f);
+    if (shader == SHADER_CORE_QUADS || shader == SHADER_CORE_POINTS) add(defines, "CORE_SPHERE", 1);
+    if (shader == SHADER_CORE_POINTS || shader == SHADER_GATHER_POINTS) add(defines, "POINTS", 1);
+    if (shader == SHADER_GATHER_QUADS || shader == SHADER_GATHER_POINTS) {
+        bool tested = f & (FEATURE_CORE | FEATURE_HOST);
+        if (tested && f & FEATURE_PAPER) add(defines, "GATHER_PAPER", 1);
+        if (tested && !(f & FEATURE_PAPER)) add(defines, "EARLY_Z", 1);
+        f &= ~(uint64_t)FEATURE_HOST;
+    }
+    if (shader == SHADER_CORE_QUADS || shader == SHADER_CORE_POINTS) f &= ~(uint64_t)FEATURE_EYE_IN_BALL;
+    add_features(defines, f);
+}
+
+bool plan_needs(const mns_plan *plan, plan_shader shader)
+{
+    uint64_t f = plan->features;
+    switch (shader) {
+    case SHADER_CORE_QUADS: return f & FEATURE_CORE && f & FEATURE_QUADS;
+    case SHADER_CORE_POINTS: return f & FEATURE_CORE && f & FEATURE_POINTS;
+    case SHADER_GATHER_QUADS: return f & FEATURE_QUADS;
+    case SHADER_GATHER_POINTS: return f & FEATURE_POINTS;
+    case SHADER_SHUFFLE: return f & FEATURE_SHUFFLE;
+    case SHADER_HOST_DEPTH:
+    case SHADER_HOST_DRAW: return f & FEATURE_HOST;
+    default: return true;
+    }
+}

@@ -1,0 +1,351 @@
+/* One frame from plan to planes to colour. */
+#include "base/clock.h"
+#include "base/status.h"
+#include "gl/state.h"
+#include "list/lengths.h"
+#include "list/pack.h"
+#include "list/uniforms.h"
+#include "render/host.h"
+#include "render/render.h"
+#include "shade/palette.h"
+#include "shade/shade.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What the steps of one draw hand to each other. */
+typedef struct draw {
+    mns_renderer *r;
+    const mns_field *field;
+    const mns_plan *plan;
+    const mns_target *target; /* NULL without a host */
+    mns_frame *frame;
+    mns_stats *stats;
+    GLuint program[SHADER_COUNT];
+    list_lengths lengths;
+    double wide[VIEW_VECTORS * 4];
+    double last_mark, spent; /* clock at the last mark; milliseconds spent on figures, not on the frame */
+} draw;
+
+/* Closes a phase: what ran since the last mark is its time. */
+static void mark(draw *d, mns_phase phase)
+{
+    if (d->plan->options.measure) d->r->device.gl.Finish();
+    double now = clock_ms();
+    d->stats->ms[phase] += now - d->last_mark;
+    d->last_mark = now;
+}
+
+static bool same_balls(const draw *d)
+{
+    const render_last *last = &d->r->last;
+    const mns_plan *plan = d->plan;
+    return !plan->options.moved && last->field == d->field && last->stamp == d->field->stamp &&
+           last->features == plan->features && memcmp(&last->frame, &plan->frame, sizeof plan->frame) == 0 &&
+           memcmp(last->origin, plan->origin, sizeof last->origin) == 0 && last->color_column == plan->color_column &&
+           memcmp(last->color_range, plan->color_range, sizeof last->color_range) == 0;
+}
+
+static void remember(draw *d)
+{
+    const mns_plan *plan = d->plan;
+    render_last *last = &d->r->last;
+    *last = (render_last){.field = d->field, .stamp = d->field->stamp, .features = plan->features, .frame = plan->frame};
+    memcpy(last->origin, plan->origin, sizeof last->origin);
+    last->color_column = plan->color_column;
+    memcpy(last->color_range, plan->color_range, sizeof last->color_range);
+}
+
+/* Maps a buffer of `floats` floats a ball and lets `which` fill it. */
+static mns_status upload(draw *d, gl_buffer *buffer, const char *what, size_t floats, int which, mns_error *error)
+{
+    gl_device *device = &d->r->device;
+    const list_order *order = &d->r->order;
+    size_t size = (order->count ? order->count : 1) * floats * sizeof(float);
+    void *data;
+    do {
+        mns_status status = gl_buffer_reserve(device, buffer, what, size, d->plan->limits.max_storage_block, error);
+        if (!status) status = gl_buffer_map(device, buffer, size, &data, error);
+        if (status) return status;
+        switch (which) {
+        case 0: list_pack_high(order, d->field, d->plan, data); break;
+        case 1: list_pack_low(order, d->field, d->plan, data); break;
+        case 2: list_pack_cores(order, d->field, data); break;
+        default: list_pack_colors(order, d->field, d->plan, data); break;
+        }
+    } while (!gl_buffer_unmap(device, buffer));
+    return MNS_OK;
+}
+
+static mns_status sort_and_upload(draw *d, mns_error *error)
+{
+    list_passes *p = &d->r->passes;
+    if (same_balls(d)) return MNS_OK;
+    d->r->last = (render_last){0};
+    mns_status status = list_order_make(&d->r->order, d->field, d->plan, error);
+    mark(d, MNS_PHASE_SORT);
+    if (!status) status = upload(d, &p->balls, "balls", d->plan->ball_floats, 0, error);
+    if (!status && d->plan->features & FEATURE_CORE_RADII) status = upload(d, &p->cores, "core radii", 1, 2, error);
+    if (!status && d->plan->features & FEATURE_COLORS) status = upload(d, &p->colors, "colours", 1, 3, error);
+    mark(d, MNS_PHASE_UPLOAD);
+    if (!status) remember(d);
+    return status;
+}
+
+static void send(draw *d, gl_buffer *buffer, const void *data, size_t size)
+{
+    const GladGLContext *gl = &d->r->device.gl;
+    gl->BindBuffer(GL_UNIFORM_BUFFER, buffer->id);
+    gl->BufferSubData(GL_UNIFORM_BUFFER, 0, (GLsizeiptr)size, data);
+}
+
+/* The camera of one sample, to the uniform blocks. */
+static void set_view(draw *d, const double jitter[2])
+{
+    float narrow[VIEW_VECTORS * 4];
+    double far_block[FAR_VECTORS * 4];
+    list_view_block(d->plan, d->field, jitter, d->target, d->wide, narrow);
+    send(d, &d->r->passes.view, narrow, sizeof narrow);
+    if (!(d->plan->features & FEATURE_FAR)) return;
+    list_far_block(d->plan, far_block);
+    send(d, &d->r->passes.far_block, far_block, sizeof far_block);
+}
+
+/* Pixels that the cast left: their balls' low words and the doubles' program are made when the first one needs them. */
+static mns_status resolve(draw *d, list_counts *counts, mns_error *error)
+{
+    gl_device *device = &d->r->device;
+    list_passes *p = &d->r->passes;
+    char defines[PLAN_DEFINES];
+    gl_shader shader = {.defines = defines};
+    plan_shader_files(SHADER_RESOLVE, &shader.vertex, &shader.fragment, &shader.compute);
+    plan_shader_defines(d->plan, SHADER_RESOLVE, defines);
+    mns_status status = gl_program_get(device, &d->r->programs, &shader, &d->program[SHADER_RESOLVE], error);
+    if (!status) status = gl_buffer_reserve(device, &p->view_wide, "view", sizeof d->wide, 0, error);
+    if (status) return status;
+    send(d, &p->view_wide, d->wide, sizeof d->wide);
+    if (!d->r->last.low) {
+        status = upload(d, &p->balls_low, "balls", d->plan->ball_floats, 1, error);
+        if (status) return status;
+        d->r->last.low = true;
+        mark(d, MNS_PHASE_UPLOAD);
+    }
+    const GLuint planes[3] = {d->frame->t, d->frame->normal, d->frame->color};
+    list_resolve(p, device, d->program[SHADER_RESOLVE], planes, counts->redo, counts);
+    return MNS_OK;
+}
+
+static mns_status draw_region(draw *d, list_region region, mns_error *error);
+
+/* A region whose lists pass what the driver's blocks hold is drawn as two. */
+static mns_status draw_halves(draw *d, list_region region, mns_error *error)
+{
+    if (region.width == 1 && region.height == 1)
+        return status_fail(error, MNS_ERROR_UNSUPPORTED, "pixel %d,%d: its list alone passes the node pool (%zu nodes)",
+                           region.x, region.y, d->plan->pool_most);
+    list_region first = region, second = region;
+    if (region.height > 1) {
+        first.height = region.height / 2;
+        second.y += first.height;
+        second.height -= first.height;
+    } else {
+        first.width = region.width / 2;
+        second.x += first.width;
+        second.width -= first.width;
+    }
+    d->stats->fallbacks.tiled++;
+    mns_status status = draw_region(d, first, error);
+    return status ? status : draw_region(d, second, error);
+}
+
+static void add_counts(mns_stats *stats, const list_counts *counts)
+{
+    stats->fallbacks.window_refilled += counts->refilled;
+    stats->fallbacks.active_overflow += counts->active;
+    stats->fallbacks.root_cap += counts->steps;
+    stats->fallbacks.undecided_float += counts->undecided_float;
+    stats->pixels_undecided += counts->undecided;
+}
+
+/* Gathers and casts a region of the frame. */
+static mns_status draw_region(draw *d, list_region region, mns_error *error)
+{
+    gl_device *device = &d->r->device;
+    list_passes *p = &d->r->passes;
+    const mns_plan *plan = d->plan;
+    size_t nodes = list_gather(p, device, plan, &d->r->order, d->program, region);
+    if (nodes > p->node_capacity) {
+        if (nodes > plan->pool_most) return draw_halves(d, region, error);
+        d->stats->fallbacks.pool_grown++;
+        mns_status status = gl_buffer_reserve(device, &p->nodes, "node pool", nodes * 8, plan->pool_most * 8, error);
+        if (status) return status;
+        p->node_capacity = p->nodes.size / 8 < plan->pool_most ? p->nodes.size / 8 : plan->pool_most;
+        nodes = list_gather(p, device, plan, &d->r->order, d->program, region);
+    }
+    mark(d, MNS_PHASE_GATHER);
+    d->stats->tiles++;
+    d->stats->list_nodes += nodes;
+    if (plan->options.measure) {
+        double begin = clock_ms();
+        if (!list_lengths_add(&d->lengths, p, device, region, nodes))
+            return status_no_memory(error, "while measuring the lists");
+        d->last_mark = clock_ms();
+        d->spent += d->last_mark - begin;
+    }
+    if (plan->features & FEATURE_SHUFFLE) list_shuffle(p, device, plan, d->program);
+    list_counts counts;
+    list_cast(p, device, plan, d->program, d->frame->planes_target, region, &counts);
+    mns_status status = counts.redo ? resolve(d, &counts, error) : MNS_OK;
+    mark(d, MNS_PHASE_CAST);
+    add_counts(d->stats, &counts);
+    return status;
+}
+
+/* All passes of one sample, into the planes. */
+static mns_status draw_sample(draw *d, const double jitter[2], mns_error *error)
+{
+    const mns_plan *plan = d->plan;
+    list_region whole = {0, 0, plan->frame.width, plan->frame.height};
+    set_view(d, jitter);
+    if (plan->features & (FEATURE_CORE | FEATURE_HOST)) {
+        list_core_depth(&d->r->passes, &d->r->device, plan, &d->r->order, d->program, whole);
+        mark(d, MNS_PHASE_CORE_DEPTH);
+    }
+    return draw_region(d, whole, error);
+}
+
+static mns_status shade_sample(draw *d, int sample, const double jitter[2], mns_error *error)
+{
+    const mns_frame *f = d->frame;
+    const GLuint planes[3] = {f->t, f->normal, f->color};
+    mns_status status = shade_pass(&d->r->device, &d->r->shade, d->r->passes.vertex_array, d->plan,
+                                   d->program[SHADER_SHADE], planes, f->shaded_target, sample, jitter, error);
+    mark(d, MNS_PHASE_SHADE);
+    return status;
+}
+
+/* Samples beside the centre only make colour; the planes are the centre's, drawn last. */
+static mns_status draw_samples(draw *d, mns_error *error)
+{
+    int samples = d->plan->options.samples;
+    double jitter[2];
+    mns_status status = MNS_OK;
+    for (int i = 0; i < samples && samples > 1 && !status; i++) {
+        list_jitter(i, samples, jitter);
+        status = draw_sample(d, jitter, error);
+        if (!status) status = shade_sample(d, i, jitter, error);
+    }
+    if (status) return status;
+    memset(&d->stats->fallbacks, 0, sizeof d->stats->fallbacks);
+    d->stats->tiles = d->stats->list_nodes = d->stats->pixels_undecided = 0;
+    d->lengths.count = 0;
+    list_jitter(0, 1, jitter);
+    status = draw_sample(d, jitter, error);
+    d->stats->ms_total = clock_ms() - d->stats->ms_total;
+    if (!status && samples == 1) status = shade_sample(d, 0, jitter, error);
+    return status;
+}
+
+static void start_stats(draw *d)
+{
+    static const char *const solvers[] = {"exact", "cubic", "cubic-monomial"};
+    const mns_plan *plan = d->plan;
+    mns_stats *stats = d->stats;
+    *stats = (mns_stats){0};
+    stats->method = "list";
+    stats->solver = solvers[plan->options.solver];
+    stats->gather = plan->options.gather == MNS_GATHER_PAPER ? "paper" : "early-z";
+    stats->width = plan->frame.width;
+    stats->height = plan->frame.height;
+    stats->timed = plan->options.measure;
+    stats->balls = d->field->p.count;
+    stats->color_by = plan->color_by;
+    stats->color_map = "";
+    stats->passes = plan->pass_count;
+    if (!(plan->features & FEATURE_COLORS) || plan->features & FEATURE_LABELS) return;
+    stats->color_map = mns_color_map_name(plan->look.color_map);
+    memcpy(stats->color_range, plan->color_range, sizeof stats->color_range);
+}
+
+/* Hit pixels, read back: only when figures were asked for. */
+static mns_status count_hits(draw *d, mns_error *error)
+{
+    const GladGLContext *gl = &d->r->device.gl;
+    size_t pixels = (size_t)d->stats->width * (size_t)d->stats->height;
+    float *t = malloc(pixels * 2 * sizeof *t);
+    if (!t) return status_no_memory(error, "while counting hits");
+    gl->BindTexture(GL_TEXTURE_2D, d->frame->t);
+    gl->GetTexImage(GL_TEXTURE_2D, 0, GL_RG, GL_FLOAT, t);
+    for (size_t i = 0; i < pixels; i++) d->stats->pixels_hit += t[2 * i] < INFINITY;
+    free(t);
+    return MNS_OK;
+}
+
+static uint64_t count_buffers(const mns_renderer *r)
+{
+    const list_passes *p = &r->passes;
+    const gl_buffer *all[] = {&p->balls, &p->balls_low, &p->cores,     &p->colors,    &p->nodes,  &p->counter,
+                              &p->redo,  &p->view,      &p->view_wide, &p->far_block, &r->shade};
+    uint64_t count = 0;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) count += all[i]->id != 0;
+    return count;
+}
+
+static mns_status draw_all(draw *d, mns_error *error)
+{
+    mns_renderer *r = d->r;
+    mns_status status = list_passes_prepare(&r->passes, &r->device, d->plan, error);
+    if (!status) status = frame_prepare(d->frame, d->plan, error);
+    if (!status) status = list_passes_compile(&r->device, &r->programs, d->plan, d->program, error);
+    if (status) return status;
+    if (d->target) host_depth_take(&r->passes, &r->device, d->plan, d->target);
+    r->device.gl.Finish();
+    d->last_mark = d->stats->ms_total = clock_ms();
+    status = sort_and_upload(d, error);
+    d->stats->balls_in_view = r->order.count;
+    if (!status) status = draw_samples(d, error);
+    d->stats->ms_total -= d->spent;
+    if (!status && d->target)
+        host_draw(&r->passes, &r->device, d->plan, d->target, d->program[SHADER_HOST_DRAW], d->frame->shaded,
+                  d->frame->t);
+    if (!status && d->plan->options.measure) status = count_hits(d, error);
+    list_lengths_finish(&d->lengths, d->stats);
+    d->stats->programs = r->programs.count;
+    d->stats->buffers = count_buffers(r);
+    return status ? status : gl_check(&r->device, "drawing", error);
+}
+
+static mns_status draw_frame(mns_renderer *r, const mns_field *field, const mns_view *view, const mns_look *look,
+                             const mns_options *options, const mns_target *target, mns_frame *frame, mns_error *error)
+{
+    if (!r || !field || !frame || frame->renderer != r)
+        return status_fail(error, MNS_ERROR_USAGE, "draw: renderer, field or frame is NULL, or the frame is another's");
+    mns_plan *plan;
+    mns_status status = plan_make(field, view, look, options, &r->device.limits, target != NULL, &plan, error);
+    if (status) return status;
+    mns_plan_destroy(frame->plan);
+    frame->plan = plan;
+    draw d = {.r = r, .field = field, .plan = plan, .target = target, .frame = frame, .stats = &frame->stats};
+    gl_state state;
+    start_stats(&d);
+    gl_state_take(&r->device, &state);
+    status = draw_all(&d, error);
+    gl_state_put_back(&r->device, &state);
+    return status;
+}
+
+mns_status mns_renderer_draw(mns_renderer *renderer, const mns_field *field, const mns_view *view, const mns_look *look,
+                             const mns_options *options, mns_frame *frame, mns_error *error)
+{
+    return draw_frame(renderer, field, view, look, options, NULL, frame, error);
+}
+
+mns_status mns_renderer_draw_on(mns_renderer *renderer, const mns_field *field, const mns_view *view,
+                                const mns_look *look, const mns_options *options, const mns_target *target,
+                                mns_frame *frame, mns_error *error)
+{
+    if (!target || !(target->near > 0 && target->far > target->near))
+        return status_fail(error, MNS_ERROR_USAGE, "draw on: a target with 0 < near < far is needed");
+    return draw_frame(renderer, field, view, look, options, target, frame, error);
+}

@@ -1,0 +1,172 @@
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/status.h"
+#include "gl/state.h"
+#include "render/render.h"
+
+mns_status mns_frame_create(mns_renderer *renderer, mns_frame **frame, mns_error *error)
+{
+    if (!renderer || !frame) return status_fail(error, MNS_ERROR_USAGE, "frame: the renderer is NULL");
+    mns_frame *f = calloc(1, sizeof *f);
+    if (!f) return status_no_memory(error, "while making a frame");
+    f->renderer = renderer;
+    *frame = f;
+    return MNS_OK;
+}
+
+static void drop_textures(mns_frame *f)
+{
+    const GladGLContext *gl = &f->renderer->device.gl;
+    GLuint textures[] = {f->t, f->normal, f->color, f->shaded}, targets[] = {f->planes_target, f->shaded_target};
+    gl->DeleteTextures(4, textures);
+    gl->DeleteFramebuffers(2, targets);
+    f->t = f->normal = f->color = f->shaded = f->planes_target = f->shaded_target = 0;
+}
+
+void mns_frame_destroy(mns_frame *f)
+{
+    if (!f) return;
+    drop_textures(f);
+    mns_plan_destroy(f->plan);
+    free(f);
+}
+
+static GLuint plane_make(const GladGLContext *gl, GLenum format, int width, int height)
+{
+    GLuint texture;
+    gl->GenTextures(1, &texture);
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->TexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->BindTexture(GL_TEXTURE_2D, 0);
+    return texture;
+}
+
+static GLuint target_make(const GladGLContext *gl, const GLuint *texture, int count)
+{
+    static const GLenum draw[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+    GLuint target;
+    gl->GenFramebuffers(1, &target);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, target);
+    for (int i = 0; i < count; i++) gl->FramebufferTexture2D(GL_FRAMEBUFFER, draw[i], GL_TEXTURE_2D, texture[i], 0);
+    gl->DrawBuffers(count, draw);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+    return target;
+}
+
+mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
+{
+    gl_device *device = &f->renderer->device;
+    const GladGLContext *gl = &device->gl;
+    bool color = plan->features & FEATURE_COLORS;
+    int width = plan->frame.width, height = plan->frame.height;
+    if (f->t && f->width == width && f->height == height && f->has_color == color) return MNS_OK;
+    drop_textures(f);
+    f->t = plane_make(gl, GL_RG32F, width, height);
+    f->normal = plane_make(gl, GL_RGBA32F, width, height);
+    if (color) f->color = plane_make(gl, GL_RGBA16F, width, height);
+    f->shaded = plane_make(gl, GL_RGBA32F, width, height);
+    GLuint planes[] = {f->t, f->normal, f->color};
+    f->planes_target = target_make(gl, planes, color ? 3 : 2);
+    f->shaded_target = target_make(gl, &f->shaded, 1);
+    f->width = width;
+    f->height = height;
+    f->has_color = color;
+    return gl_check(device, "frame", error);
+}
+
+unsigned mns_frame_texture(const mns_frame *frame, mns_plane plane)
+{
+    switch (plane) {
+    case MNS_PLANE_COLOR: return frame->shaded;
+    case MNS_PLANE_DEPTH: return frame->t;
+    case MNS_PLANE_NORMAL: return frame->normal;
+    }
+    return 0;
+}
+
+const mns_stats *mns_frame_stats(const mns_frame *frame)
+{
+    return &frame->stats;
+}
+
+const mns_plan *mns_frame_plan(const mns_frame *frame)
+{
+    return frame->plan;
+}
+
+static mns_image *image_make(int width, int height)
+{
+    size_t pixels = (size_t)width * (size_t)height;
+    mns_image *image = calloc(1, sizeof *image);
+    if (!image) return NULL;
+    image->width = width;
+    image->height = height;
+    image->rgba = memory_array(pixels, 4 * sizeof(float));
+    image->t = memory_array(pixels, sizeof(float));
+    image->t_lo = memory_array(pixels, sizeof(float));
+    image->normal = memory_array(pixels, 3 * sizeof(float));
+    image->certain = memory_array(pixels, sizeof(float));
+    if (image->rgba && image->t && image->t_lo && image->normal && image->certain) return image;
+    mns_image_destroy(image);
+    return NULL;
+}
+
+/* Texture to memory: GL's rows run from the bottom. */
+static void fetch(const GladGLContext *gl, GLuint texture, GLenum format, float *to)
+{
+    gl->BindTexture(GL_TEXTURE_2D, texture);
+    gl->GetTexImage(GL_TEXTURE_2D, 0, format, GL_FLOAT, to);
+    gl->BindTexture(GL_TEXTURE_2D, 0);
+}
+
+static void unpack(const mns_frame *f, mns_image *image, float *row_store)
+{
+    const GladGLContext *gl = &f->renderer->device.gl;
+    size_t width = (size_t)f->width, height = (size_t)f->height;
+    fetch(gl, f->shaded, GL_RGBA, row_store);
+    for (size_t y = 0; y < height; y++)
+        for (size_t i = 0; i < width * 4; i++)
+            image->rgba[y * width * 4 + i] = row_store[(height - 1 - y) * width * 4 + i];
+    fetch(gl, f->t, GL_RG, row_store);
+    for (size_t y = 0; y < height; y++)
+        for (size_t x = 0; x < width; x++) {
+            const float *from = row_store + ((height - 1 - y) * width + x) * 2;
+            image->t[y * width + x] = from[0];
+            image->t_lo[y * width + x] = from[1];
+        }
+    fetch(gl, f->normal, GL_RGBA, row_store);
+    for (size_t y = 0; y < height; y++)
+        for (size_t x = 0; x < width; x++) {
+            const float *from = row_store + ((height - 1 - y) * width + x) * 4;
+            for (size_t axis = 0; axis < 3; axis++) image->normal[(y * width + x) * 3 + axis] = from[axis];
+            image->certain[y * width + x] = from[3];
+        }
+}
+
+mns_status mns_frame_read(mns_frame *f, mns_image **result, mns_error *error)
+{
+    if (!f || !result || !f->plan) return status_fail(error, MNS_ERROR_USAGE, "frame: nothing has been drawn into it yet");
+    double begin = clock_ms();
+    float *store = memory_array((size_t)f->width * (size_t)f->height, 4 * sizeof(float));
+    mns_image *image = image_make(f->width, f->height);
+    gl_state state;
+    if (!store || !image) {
+        free(store);
+        mns_image_destroy(image);
+        return status_no_memory(error, "while reading a frame");
+    }
+    gl_state_take(&f->renderer->device, &state);
+    unpack(f, image, store);
+    gl_state_put_back(&f->renderer->device, &state);
+    free(store);
+    mns_status status = gl_check(&f->renderer->device, "reading a frame", error);
+    if (status) {
+        mns_image_destroy(image);
+        return status;
+    }
+    f->stats.ms[MNS_PHASE_READBACK] = clock_ms() - begin;
+    *result = image;
+    return MNS_OK;
+}
