@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -191,6 +192,54 @@ static void description_tells_version_and_limits(void **state)
     free(text);
 }
 
+/* What a program of its own prints that asks for a context of `backend`: Mesa reads its environment only
+ * once. */
+static void run_attempt(const char *environment, const char *backend, char *line, int size)
+{
+    char self[512] = "", command[1024];
+    assert_true(readlink("/proc/self/exe", self, sizeof self - 1) > 0);
+    snprintf(command, sizeof command, "%s MNS_TEST_BACKEND=%s '%s' attempt", environment, backend, self);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    assert_non_null(fgets(line, size, pipe));
+    pclose(pipe);
+}
+
+static int attempt(void)
+{
+    mns_context *context = NULL;
+    mns_error error = {0};
+    mns_status status = mns_context_create(gl_fixture_backend(), &context, &error);
+    printf("%d %s\n", (int)status, status == MNS_OK ? mns_context_name(context) : error.text);
+    mns_context_destroy(context);
+    return 0;
+}
+
+static void old_driver_is_told_from_an_absent_one(void **state)
+{
+    gl_fixture *f = *state;
+    char line[600], expected[8];
+    if (!strstr((const char *)f->gl.GetString(GL_VERSION), "Mesa"))
+        skip(); /* only Mesa can play an old driver */
+    snprintf(expected, sizeof expected, "%d ", MNS_ERROR_GL);
+    run_attempt("MESA_GL_VERSION_OVERRIDE=4.2",
+                getenv("MNS_TEST_BACKEND") ? getenv("MNS_TEST_BACKEND") : "auto", line, sizeof line);
+    assert_int_equal(strncmp(line, expected, strlen(expected)), 0);
+    assert_non_null(strstr(line, "version too old"));
+}
+
+static void auto_tells_every_back_end_tried(void **state)
+{
+    gl_fixture *f = *state;
+    char line[600];
+    if (!strstr((const char *)f->gl.GetString(GL_VERSION), "Mesa")) skip();
+    run_attempt("DISPLAY= WAYLAND_DISPLAY= MESA_GL_VERSION_OVERRIDE=4.2", "auto", line, sizeof line);
+    assert_non_null(strstr(line, "no OpenGL 4.3 context"));
+    assert_non_null(strstr(line, "EGL: "));
+    assert_non_null(strstr(line, "; OSMesa: "));
+    assert_non_null(strstr(line, "; GLFW: "));
+}
+
 static void unknown_back_end_is_a_usage_error(void **state)
 {
     mns_context *context = NULL;
@@ -207,8 +256,9 @@ static void destroy_takes_null(void **state)
     mns_context_destroy(NULL);
 }
 
-int main(void)
+int main(int count, char **argument)
 {
+    if (count > 1 && !strcmp(argument[1], "attempt")) return attempt();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(context_is_core_4_3_or_later),
         cmocka_unit_test(context_name_tells_the_back_end),
@@ -217,6 +267,8 @@ int main(void)
         cmocka_unit_test(back_ends_work_side_by_side),
         cmocka_unit_test(contexts_made_again_and_again_do_not_grow),
         cmocka_unit_test(description_tells_version_and_limits),
+        cmocka_unit_test(old_driver_is_told_from_an_absent_one),
+        cmocka_unit_test(auto_tells_every_back_end_tried),
         cmocka_unit_test(unknown_back_end_is_a_usage_error),
         cmocka_unit_test(destroy_takes_null),
     };

@@ -202,7 +202,7 @@ static void absent_channel_is_named(void **state)
     unsigned char *list = find_attribute(bytes, size, "channels", "chlist");
     unsigned char *entry = memmem(list, 300, "certain", 8);
     assert_non_null(entry);
-    memcpy(entry, "dertain", 7); /* still in the order of names */
+    entry[0] = 'd'; /* still in the order of names */
     image_fixture_save(path, bytes, size);
     assert_refused(path, MNS_ERROR_INPUT, "channel certain");
     free(bytes);

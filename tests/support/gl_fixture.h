@@ -23,7 +23,8 @@ mns_backend gl_fixture_backend(void);
 void gl_fixture_begin(gl_fixture *fixture);
 
 /* Fails the running test if GL has an error pending or the driver gave a message of medium or high severity
- * since the beginning or the last check. */
+ * since the beginning or the last check. A renderer takes the debug output over: ask mns_renderer_messages
+ * for what came since. */
 void gl_fixture_check(gl_fixture *fixture);
 
 /* Checks as above, then destroys the context. */
