@@ -42,13 +42,10 @@ static mns_status print_backends(const app_options *o, mns_error *error)
 {
     if (o->input_count || o->json)
         return app_fail(error, MNS_ERROR_USAGE, "--gl: expected no input and no --json beside it");
-    static const mns_backend backends[] = {MNS_BACKEND_EGL, MNS_BACKEND_OSMESA, MNS_BACKEND_GLFW};
-    for (size_t i = 0; i < sizeof backends / sizeof *backends; i++) {
-        char *text = mns_backend_describe(backends[i]);
-        if (!text) return app_fail(error, MNS_ERROR_MEMORY, "out of memory describing a back end");
-        puts(text);
-        free(text);
-    }
+    char *text = mns_backend_describe(MNS_BACKEND_AUTO);
+    if (!text) return app_fail(error, MNS_ERROR_MEMORY, "out of memory describing the back ends");
+    puts(text);
+    free(text);
     return MNS_OK;
 }
 

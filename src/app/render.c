@@ -261,6 +261,14 @@ static mns_status render_one(render_job *job, long index, mns_error *error)
     return status;
 }
 
+/* What the driver complained of, for a report of the fault. */
+static void note_messages(const mns_renderer *renderer)
+{
+    const char *last;
+    size_t count = mns_renderer_messages(renderer, &last);
+    if (count) app_note("the driver gave %zu messages; the last: %.360s", count, last);
+}
+
 static mns_status render_all(render_job *job, mns_error *error)
 {
     mns_status status = start_renderer(job, error);
@@ -271,6 +279,7 @@ static mns_status render_all(render_job *job, mns_error *error)
         progress_show(&job->progress, i + 1);
     }
     progress_clear(&job->progress);
+    note_messages(job->renderer);
     if (!status && job->o->stats) status = stats_json_write(job->o->stats, job->frames, error);
     return status;
 }

@@ -52,7 +52,7 @@ void cli_run(cli *c, const char *arguments, ...)
     va_start(list, arguments);
     vsnprintf(words, sizeof words, arguments, list);
     va_end(list);
-    snprintf(command, sizeof command, "cd '%s' && '%s' %s >'%s.out' 2>'%s.err' </dev/null", c->folder,
+    snprintf(command, sizeof command, "cd '%s' && { '%s' %s ; } >'%s.out' 2>'%s.err' </dev/null", c->folder,
              c->program, words, c->folder, c->folder);
     int result = system(command);
     assert_true(WIFEXITED(result));
