@@ -1,7 +1,8 @@
 /* How far the drawn planes are from the brute-force oracle: a row of a table for each scene, back end and
  * solver.
  *
- * usage, from the repository's root: bench_accuracy [-n RAYS] [-k KERNEL] [-b BACKEND] [-s SOLVER] [SCENE...]
+ * usage, from the repository's root: bench_accuracy [-n RAYS] [-k KERNEL] [-b BACKEND] [-s SOLVER]
+ * [-v VIEW, 0 to 4] [SCENE...]
  */
 #include "meniscus.h"
 #include "support/brute_image.h"
@@ -55,6 +56,7 @@ typedef struct bench {
     size_t rays;
     mns_kernel kernel;
     const char *backend, *solver; /* NULL: all */
+    size_t first_view, end_view;
     bool failed;
 } bench;
 
@@ -103,7 +105,8 @@ static bool measure_view(const bench *b, const stage *s, mns_solver solver, size
                 mns_renderer_draw(s->renderer, s->field, &view, NULL, &options, s->frame, error) == MNS_OK &&
                 mns_frame_read(s->frame, &image, error) == MNS_OK;
     if (done) {
-        done = brute_tally_add(tally, s->oracle, &view, image, b->rays / VIEWS, 0x1p-40, 1000 + index);
+        done = brute_tally_add(tally, s->oracle, &view, image, b->rays / (b->end_view - b->first_view),
+                               0x1p-40, 1000 + index);
         if (!done) snprintf(error->text, sizeof error->text, "out of memory comparing");
     }
     mns_image_destroy(image);
@@ -125,7 +128,7 @@ static void measure_solvers(bench *b, const stage *s, const char *backend)
         mns_error error = {0};
         brute_tally *tally = brute_tally_create();
         bool done = tally;
-        for (size_t v = 0; done && v < VIEWS; v++)
+        for (size_t v = b->first_view; done && v < b->end_view; v++)
             done = measure_view(b, s, solvers[i].solver, v, tally, &error) ||
                    complain(b, s->scene->name, &error);
         if (done) {
@@ -189,8 +192,8 @@ static bool wanted(const bench_scene *scene, char **names, int count)
 
 int main(int argc, char **argv)
 {
-    bench b = {.rays = 20000};
-    for (int option; (option = getopt(argc, argv, "n:k:b:s:")) != -1;) {
+    bench b = {.rays = 20000, .end_view = VIEWS};
+    for (int option; (option = getopt(argc, argv, "n:k:b:s:v:")) != -1;) {
         if (option == 'n')
             b.rays = strtoul(optarg, NULL, 10);
         else if (option == 'k')
@@ -199,7 +202,10 @@ int main(int argc, char **argv)
             b.backend = optarg;
         else if (option == 's')
             b.solver = optarg;
-        else
+        else if (option == 'v') {
+            b.first_view = strtoul(optarg, NULL, 10) % VIEWS;
+            b.end_view = b.first_view + 1;
+        } else
             return 2;
     }
     if (b.kernel == MNS_KERNEL_COUNT || b.rays < VIEWS) {
