@@ -210,7 +210,8 @@ bool stream_token(load_stream *s, load_text *token)
 {
     if (s->status) return false;
     for (;;) { /* to the token */
-        while (s->begin < s->end && is_space(s->buffer[s->begin])) s->line += s->buffer[s->begin++] == '\n';
+        for (; s->begin < s->end && is_space(s->buffer[s->begin]); s->begin++)
+            if (s->buffer[s->begin] == '\n') s->line++, s->is_mid_line = false;
         if (s->begin < s->end) break;
         if (!fill(s)) return false;
     }
