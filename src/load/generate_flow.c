@@ -25,7 +25,7 @@ static const double funnel_a = 0.0036, funnel_b = 0.2464;
 static void prepare_tornado(generate_frame *f)
 {
     double volume = 2 * PI * (funnel_a + funnel_b / 4);
-    set_size(f, 15, volume, 4.1); /* its surface, walls and top */
+    set_size(f, 14.2, volume, 4.1); /* its surface, walls and top; the ridges gather balls: 15 come out */
 }
 
 /* h below which the share u of the volume lies: a h + b h^4 / 4 = u (a + b / 4), by Newton's method from
@@ -80,7 +80,8 @@ static double pool_depth(const generate_frame *f, double x, double z)
 
 static void prepare_pool(generate_frame *f)
 {
-    set_size(f, 30, 2 * 0.3 * 1, 2 * (2 * 1 + 2 * 0.3 + 0.3 * 1));
+    /* Waves thin out what they lift, and droplets leave: 30 come out. */
+    set_size(f, 33, 2 * 0.3 * 1, 2 * (2 * 1 + 2 * 0.3 + 0.3 * 1));
 }
 
 /* Thrown up and out from a ring about the splash, again and again: y = v s - 2 s^2 with s the time since the

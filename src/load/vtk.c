@@ -32,7 +32,7 @@ static bool fail_section(reader *r, const char *section, const char *expected)
 
 static bool is_product_small(uint64_t a, uint64_t b)
 {
-    return !b || a <= UINT64_MAX / 16 / b;
+    return !b || a <= UINT64_MAX / 4 / b;
 }
 
 /* The rest of a line as words; gives how many there are, at most `limit`. */
@@ -126,7 +126,7 @@ static bool read_points(reader *r, const load_text *word, size_t words)
 {
     uint64_t count;
     if (words < 3 || !number_count(word[1], &count) || !is_product_small(count, 3) || r->has_points)
-        return fail_section(r, "POINTS", "once, POINTS count type");
+        return fail_section(r, "POINTS", "once, POINTS count type, a count that a file can hold");
     vtk_type type = vtk_type_by_name(word[2]);
     if (type == VTK_NONE) return fail_section(r, "POINTS", "a type of numbers such as float");
     vtk_values v = {0};
