@@ -7,7 +7,7 @@
 static particles make(const char *text, size_t frame)
 {
     generate_spec spec;
-    particles p;
+    particles p = {0};
     mns_error error = {0};
     if (generate_parse(text, &spec, &error) || generate_make(&spec, frame, &p, &error))
         fail_msg("%s", error.text);

@@ -90,6 +90,9 @@ mns_status format_try(const load_format *format, const void *data, size_t size, 
         particles p = {0};
         status = stream_seek(&s, frames.place[i]);
         if (!status) status = format->read(&s, &p);
+        mns_field *field = NULL;
+        if (!status) status = field_from_particles(&p, NULL, format->radius_source, &field, error);
+        mns_field_destroy(field);
         particles_free(&p);
     }
     free(frames.place);
