@@ -114,13 +114,14 @@ static void a_line_without_end_is_refused(void **state)
     (void)state;
     enum { SIZE = 3000000 };
     static char text[SIZE];
+    static const char row[] = "1,2,3\n", names[] = "x,y,z,";
     memset(text, '1', SIZE);
-    memcpy(text, "1,2,3\n", 6);
+    memcpy(text, row, sizeof row - 1);
     expect_bytes_failure("long.csv", text, SIZE, ":2: ", "longer than 1000000 bytes");
     memset(text + 6, ',', SIZE - 6);
     text[900000] = '\n';
     expect_bytes_failure("commas.csv", text, SIZE, ":2: ", "expected a number");
-    memcpy(text, "x,y,z,", 6);
+    memcpy(text, names, sizeof names - 1);
     for (int i = 6; i < 900000; i++) text[i] = i % 2 ? ',' : 'a';
     expect_bytes_failure("names.csv", text, SIZE, ":1: ", "mean the same");
 }

@@ -81,7 +81,7 @@ static void gzip_members_follow_one_another(void **state)
     expect_at(f, 2, 7, 8, 9);
     mns_field_destroy(f);
     mns_input_close(input);
-    memcpy(data + size, "junk", 4);
+    memset(data + size, 'j', 4);
     char where[32];
     snprintf(where, sizeof where, ": byte %zu: ", size);
     expect_bytes_failure("two.gz", data, size + 4, where, "after the end of the gzip stream");

@@ -20,7 +20,7 @@ static void expect_same(const char *text)
     const char *at = text, *end = text + strlen(text);
     double value = -1, expected = strtod(text, NULL);
     assert_true(number_scan(&at, end, &value));
-    if (at != end || memcmp(&value, &expected, sizeof value) != 0)
+    if (at != end || value != expected || signbit(value) != signbit(expected))
         fail_msg("'%s': %.17g, expected %.17g", text, value, expected);
 }
 

@@ -4,7 +4,8 @@
 
 #include "meniscus.h"
 
-/* An extra scalar of every particle, kept for colour. A text column (element) holds indices into its labels. */
+/* An extra scalar of every particle, kept for colour. A text column (element) holds indices into its labels.
+ */
 typedef struct particles_column {
     char *name;
     double *value; /* count of them */
@@ -16,13 +17,13 @@ typedef struct particles_column {
 /* What a reader gives: numbers checked (finite, radii > 0), nothing resolved. Zeroed is empty. */
 typedef struct particles {
     size_t count;
-    double *axis[3];           /* x, y, z */
-    double *radius;            /* NULL: the input has none */
-    double *strength;          /* NULL: the input has none, all are 1 */
-    bool radius_is_surface;    /* radius is where a lone ball's surface shall lie (van der Waals), not R */
+    double *axis[3];        /* x, y, z */
+    double *radius;         /* NULL: the input has none */
+    double *strength;       /* NULL: the input has none, all are 1 */
+    bool radius_is_surface; /* radius is where a lone ball's surface shall lie (van der Waals), not R */
     particles_column *column;
     size_t column_count;
-    const char *format;        /* a literal */
+    const char *format; /* a literal */
     size_t rows_skipped;
     char rows_skipped_why[160];
     bool has_cell;
@@ -35,25 +36,26 @@ void particles_free(particles *p); /* frees the members, zeroes *p */
 void particles_column_range(particles_column *column, size_t count);
 
 struct mns_field {
-    uint64_t stamp;          /* nanoseconds of the clock when it was made: tells it from another at the same address */
-    particles p;             /* p.radius holds R, or NULL where all are uniform_radius; never radius_is_surface */
-    double uniform_radius;   /* where p.radius is NULL */
-    mns_kernel kernel;       /* never DEFAULT */
+    uint64_t stamp; /* nanoseconds of the clock when it was made: tells it from another at the same address */
+    particles p;    /* p.radius holds R, or NULL where all are uniform_radius; never radius_is_surface */
+    double uniform_radius; /* where p.radius is NULL */
+    mns_kernel kernel;     /* never DEFAULT */
     double iso;
     const char *radius_source; /* a literal */
-    double lo[3], hi[3];     /* box of the centres */
+    double lo[3], hi[3];       /* box of the centres */
     double effective_lo[3], effective_hi[3];
     double radius_min, radius_median, radius_max;
     double strength_min, strength_max; /* 1, 1 without strengths */
-    double positive_sum_bound; /* sum of the positive strengths */
+    double positive_sum_bound;         /* sum of the positive strengths */
 };
 
 /* Takes over `p` (zeroing it) and resolves kernel, level and radii. On failure `p` is left to the caller. */
 mns_status field_from_particles(particles *p, const mns_input_options *options, const char *radius_source,
                                 mns_field **field, mns_error *error);
 
-/* Median distance from a ball to its nearest distinct neighbour (a coincident centre is none); 0 where there is none
- * (fewer than two distinct centres). Parallel, over a tree of boxes; exact, not sampled. Errors: MEMORY, UNSUPPORTED. */
+/* Median distance from a ball to its nearest distinct neighbour (a coincident centre is none); 0 where there
+ * is none (fewer than two distinct centres). Parallel, over a tree of boxes; exact, not sampled. Errors:
+ * MEMORY, UNSUPPORTED. */
 mns_status field_spacing(const particles *p, double *median, mns_error *error);
 
 /* Exact median of non-negative finite values, the mean of the middle two where count is even; 0 of none. */

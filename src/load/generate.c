@@ -11,7 +11,7 @@ static const generate_shape *const shapes[] = {&generate_scattered, &generate_de
                                                &generate_tornado,   &generate_pool,  &generate_molecule,
                                                &generate_drop,      &generate_sheet};
 
-enum { SHAPES = sizeof shapes / sizeof *shapes };
+enum { SHAPES = sizeof shapes / sizeof shapes[0] };
 
 #define LARGEST_COUNT 2000000000u
 

@@ -35,8 +35,9 @@ mns_status stream_fail_line(load_stream *s, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    return s->status = status_fail(s->error, MNS_ERROR_INPUT, "%s:%llu: %s", s->name,
-                                   (unsigned long long)(s->line + (s->is_mid_line || !s->line)), text);
+    uint64_t line = s->line + (s->is_mid_line || !s->line);
+    return s->status =
+               status_fail(s->error, MNS_ERROR_INPUT, "%s:%llu: %s", s->name, (unsigned long long)line, text);
 }
 
 mns_status stream_fail_byte(load_stream *s, const char *format, ...)

@@ -83,16 +83,16 @@ static bool read_binary(load_stream *s, vtk_type type, uint64_t count, const cha
     while (count) {
         size_t part = count < BLOCK ? (size_t)count : BLOCK;
         size_t length = size ? part * size : (part + 7) / 8;
-        uint64_t start = stream_place(s).offset;
+        uint64_t byte = stream_place(s).offset;
         if (!stream_bytes(s, bytes, length)) return false;
         count -= part;
         if (!values) continue;
         if (!reserve(s, values, &capacity, part)) return false;
-        for (size_t i = 0; i < part; i++) {
+        for (size_t i = 0; i < part; i++, byte += size) {
             double value = size ? decode(bytes + i * size, type) : (bytes[i / 8] >> (7 - i % 8)) & 1;
             if (!isfinite(value)) {
                 stream_fail(s, MNS_ERROR_INPUT, "byte %llu: %.60s has the value %g; expected a finite number",
-                            (unsigned long long)(start + i * size), what, value);
+                            (unsigned long long)byte, what, value);
                 return false;
             }
             values->value[values->count++] = value;
