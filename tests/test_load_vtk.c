@@ -146,6 +146,7 @@ static void bad_ascii_files_name_their_line(void **state)
         {"# vtk DataFile Version 3.0\nt\nTEXT\n", ":3: ", "'TEXT'; expected ASCII or BINARY"},
         {"# vtk DataFile Version 3.0\nt\n", ":2: ", "the file ends"},
         {"# vtk DataFile Version 3.0\nt\nASCII\nPOINTS 1 float\n", ":4: ", "expected DATASET"},
+        {"# vtk DataFile Version 3.0\nt\n\r \r\n", ":3: ", "the file ends"}, /* found by the fuzzer */
         {"hello", ":1: ", "expected '# vtk DataFile Version'"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)

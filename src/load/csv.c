@@ -10,7 +10,7 @@
 
 static bool is_passed_over(load_text line)
 {
-    while (line.at < line.end && (*line.at == ' ' || *line.at == '\t')) line.at++;
+    while (line.at < line.end && (*line.at == ' ' || *line.at == '\t' || *line.at == '\r')) line.at++;
     return line.at == line.end || *line.at == '#';
 }
 

@@ -70,7 +70,7 @@ bool format_next_line(load_stream *s, load_place *place, load_text *line)
         *place = stream_place(s);
         if (!stream_line(s, line)) return false;
         for (const char *c = line->at; c < line->end; c++)
-            if (*c != ' ' && *c != '\t') return true;
+            if (*c != ' ' && *c != '\t' && *c != '\r') return true;
     }
 }
 

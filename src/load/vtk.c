@@ -35,11 +35,13 @@ static bool is_product_small(uint64_t a, uint64_t b)
     return !b || a <= UINT64_MAX / 4 / b;
 }
 
-/* The rest of a line as words; gives how many there are, at most `limit`. */
+/* The rest of a line as words; gives how many there are, at most `limit`. Those that are not there are empty.
+ */
 static size_t split_words(load_text line, load_text *word, size_t limit)
 {
     size_t count = 0;
     while (count < limit && table_next_field(&line, ' ', &word[count])) count++;
+    for (size_t i = count; i < limit; i++) word[i] = text_of("");
     return count;
 }
 
