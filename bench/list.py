@@ -90,8 +90,8 @@ def phase_scenes():
             yield kind + name, f"{generator}:{count}", camera(kind), sizes
     yield "molecule", "examples/1tii.pdb", [], sizes
     yield ("dam break", "examples/dam.06500.lammpstrj.gz",
-           ["--radius", "2.2", "--kernel", "poly2", "--iso", "0.35", "--eye", "118,-4,62", "--look-at", "12,42,17",
-            "--up", "0,0,1"], sizes)
+           ["--radius", "2.2", "--kernel", "poly2", "--iso", "0.35", "--eye", "112,-14,66", "--look-at", "12,43,26",
+            "--up", "0,0,1", "--fov", "40"], sizes)
     for kind, generator in (("S", "scattered"), ("D", "dense")):
         yield kind + "1.6M", f"{generator}:1600000", camera(kind), sizes
 
