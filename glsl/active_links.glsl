@@ -1,24 +1,19 @@
 // The active set kept in the pixel's own linked list, for any number of balls: sorted in place by where the ray enters each ball
 // (ties by ball), the list's first part up to active_past is the active set, and what has ended is unlinked. No array, no limit.
 
-uint active_head;   // first node of the list that is left
-uint active_past;   // first node not yet active
-REAL active_end;    // least b of the active set
+uint active_head = NO_NODE;   // first node of the list that is left
+uint active_past = NO_NODE;   // first node not yet active
+REAL active_end = FAR_AWAY;    // least b of the active set
 
 #define EACH_ACTIVE(j) for (uint j = active_head; j != active_past; j = list_nodes[j].y)
 
-Ray links_ray;      // the ray that the chords are cut from
+Ray links_ray = Ray(REAL3(0.0), REAL3(0.0)); // the ray that the chords are cut from
 
 Chord active_chord(uint node)
 {
     Chord chord;
-    chord_cut(links_ray, list_nodes[node].x, chord);
+    chord_cut(links_ray, ball_get(list_nodes[node].x), chord);
     return chord;
-}
-
-REAL active_strength(uint node)
-{
-    return ball_strength(list_nodes[node].x);
 }
 
 uint active_ball(uint node)
@@ -34,7 +29,7 @@ uint links_hit(uint head)
     for (uint node = head; node != NO_NODE;) {
         uint next = list_nodes[node].y;
         Chord chord;
-        if (chord_cut(links_ray, list_nodes[node].x, chord)) {
+        if (chord_cut(links_ray, ball_get(list_nodes[node].x), chord)) {
             if (last == NO_NODE)
                 kept = node;
             else
@@ -47,49 +42,13 @@ uint links_hit(uint head)
     return kept;
 }
 
-bool links_before(uint node_a, uint node_b)
+bool list_before(uint node_a, uint node_b)
 {
     REAL a = active_chord(node_a).a;
     REAL b = active_chord(node_b).a;
     return a < b || (a == b && list_nodes[node_a].x < list_nodes[node_b].x);
 }
-
-// Merge sort of the list, runs of 1, 2, 4, ... nodes: n log n and no memory.
-uint links_sort(uint head)
-{
-    for (uint run = 1u;; run *= 2u) {
-        uint rest = head, last = NO_NODE;
-        head = NO_NODE;
-        int merges = 0;
-        while (rest != NO_NODE) {
-            merges++;
-            uint left = rest, right = rest;
-            uint left_size = 0u, right_size = run;
-            for (; left_size < run && right != NO_NODE; left_size++) right = list_nodes[right].y;
-            while (left_size > 0u || (right_size > 0u && right != NO_NODE)) {
-                uint taken;
-                bool from_left = left_size > 0u && (right_size == 0u || right == NO_NODE || !links_before(right, left));
-                if (from_left) {
-                    taken = left;
-                    left = list_nodes[left].y;
-                    left_size--;
-                } else {
-                    taken = right;
-                    right = list_nodes[right].y;
-                    right_size--;
-                }
-                if (last == NO_NODE)
-                    head = taken;
-                else
-                    list_nodes[last].y = taken;
-                last = taken;
-            }
-            rest = right;
-        }
-        if (last != NO_NODE) list_nodes[last].y = NO_NODE;
-        if (merges <= 1) return head;
-    }
-}
+#include "list_sort.glsl"
 
 // Lets go of the balls that end at or before s, takes in those that begin there.
 void active_move(REAL s)

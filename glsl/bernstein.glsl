@@ -67,14 +67,6 @@ REAL bernstein_root(REAL b[DEGREE + 1])
     return x;
 }
 
-// The steepest chord from the first coefficient: over [0, 1] the polynomial lies below the line of that slope from b[0].
-REAL bernstein_steepest(REAL b[DEGREE + 1])
-{
-    REAL steepest = NUM(0.0);
-    for (int i = 1; i <= DEGREE; i++) steepest = max(steepest, (b[i] - b[0]) * (NUM(DEGREE) / NUM(i)));
-    return steepest;
-}
-
 // Where the largest coefficient stands, away from the ends: a good place to split a hump.
 REAL bernstein_hump(REAL b[DEGREE + 1])
 {
@@ -88,44 +80,44 @@ REAL bernstein_hump(REAL b[DEGREE + 1])
     return place / NUM(DEGREE);
 }
 
-// The first x in [0, 1] at which the polynomial rises through zero, never passing one and never taking a later one: what lies left
-// of a step has been proved below zero before the step is taken.
+// The first x in [0, 1] at which the polynomial rises through zero, never passing one and never taking a later one: the search
+// goes on from a place only when everything to the left of it has been proved to stay below zero. Where a stretch proves nothing
+// it is cut at its hump, and its left part looked at first; no stack is kept, what lies right is cut again from b.
 int bernstein_first(REAL b[DEGREE + 1], REAL margin, int steps, out REAL root)
 {
-    REAL low = NUM(0.0);
-    REAL width = NUM(1.0);
+    REAL low = NUM(0.0);    // b is the polynomial on [low, 1]
+    REAL width = NUM(1.0);  // of that, the stretch looked at
+    root = NUM(0.0);
+    int sees = bernstein_sees(b, margin);
+    if (sees == SEES_NONE) return PIECE_NONE;
+    if (sees == SEES_ONE) {
+        root = bernstein_root(b);
+        return PIECE_HIT;
+    }
     REAL scale = abs(b[0]);
     for (int i = 1; i <= DEGREE; i++) scale = max(scale, abs(b[i]));
     REAL rounding = NUM(0.5) * TAU * scale;
-    root = NUM(0.0);
+    margin += rounding;
+    width = bernstein_hump(b);
     for (int step = 0; step < steps; step++) {
-        int sees = bernstein_sees(b, margin);
-        if (sees == SEES_NONE) return PIECE_NONE;
-        if (sees == SEES_ONE) {
-            root = low + width * bernstein_root(b);
-            return PIECE_HIT;
-        }
-        if (b[0] > margin) return PIECE_OPEN;
         REAL left[DEGREE + 1];
         REAL right[DEGREE + 1] = b;
-        REAL x = bernstein_hump(b);
-        margin += rounding;
-        bernstein_split(right, x, left);
+        bernstein_split(right, width, left);
         sees = bernstein_sees(left, margin);
         if (sees == SEES_ONE) {
-            root = low + width * x * bernstein_root(left);
+            root = low + (NUM(1.0) - low) * width * bernstein_root(left);
             return PIECE_HIT;
         }
-        if (sees == SEES_OPEN) {
-            // Go on from where the steepest line first comes near zero; inside the margin there is no such place.
-            if (left[0] > NUM(-4.0) * margin) return PIECE_OPEN;
-            x *= (NUM(-2.0) * margin - left[0]) / bernstein_steepest(left);
-            bernstein_split(b, x, left);
-        } else {
+        if (sees == SEES_NONE) {
+            low += (NUM(1.0) - low) * width;
+            if (width == NUM(1.0)) return PIECE_NONE;
             b = right;
+            margin += rounding;
+            width = NUM(1.0);
+        } else {
+            if (b[0] > margin || width < SOLVE_TOLERANCE) return PIECE_OPEN;
+            width *= bernstein_hump(left);
         }
-        low += width * x;
-        width *= NUM(1.0) - x;
     }
     return PIECE_CAP;
 }

@@ -8,9 +8,13 @@
 #include "far.glsl"
 #include "balls.glsl"
 #define LISTS_ACCESS readonly
+#ifdef BALL_TEXELS
+#define LISTS_TEXELS
+#endif
+#define LISTS_TEXELS
 #include "lists.glsl"
 #include "chord.glsl"
-#include "active_array.glsl"
+#include "active_slots.glsl"
 #if SOLVER == SOLVER_EXACT && KERNEL <= DENSITY_WYVILL
 #if KERNEL == DENSITY_POLY2
 #define DEGREE 4
@@ -49,62 +53,72 @@ layout(location = 1) out vec4 out_normal;
 layout(location = 2) out vec4 out_color;
 #endif
 
-// Walks the ray. Returns the last piece's verdict; s is the hit.
-int cast_walk(Ray ray, uint head, float limit, out float s, out bool refilled)
+// Sums the piece [s, stop] over the slots. Returns the next separator after it, as far as the slots know.
+float slot_sum(float s, float stop, out bool some)
+{
+    float next = FAR_AWAY;
+    some = false;
+    active_from = s;
+    piece_begin();
+    for (int j = 0; j < slot_count; j++) {
+        Chord chord = active_chord(j);
+        next = min(next, slot_next(chord, stop));
+        if (chord.b <= s) slot_free = j;
+        if (chord.a <= s && chord.b > s) {
+            piece_take(chord, s, stop);
+            some = true;
+        }
+    }
+    return next;
+}
+
+// Walks the ray. Returns the last piece's verdict; s is the hit. Taking balls in, stepping from separator to separator and searching
+// a piece are loops of their own, so that on a wide machine no lane pays for what another does.
+int cast_walk(uint head, float limit, out float s)
 {
     s = 0.0;
-    refilled = false;
-    int found = PIECE_NONE;
-    int next = 0;
-    active_clear();
+    slots_clear();
+    stream_read(head);
+    float stop = FAR_AWAY;
 #ifdef MONOMIAL
-    monomial_w = vec4(0.0);
+    bool gap = true;
 #endif
-    window_load(ray, head, -FAR_AWAY, 0u);
     for (;;) {
-        if (active_count == 0 && next < window_count) {
-            s = max(s, window_entry[next]);
+        stream_fill(s, stop);
+        bool may = false;
+        float next;
+        while (stream_near > stop && s < limit && !slot_overflow) {
+            bool some;
+            next = slot_sum(s, stop, some);
 #ifdef MONOMIAL
-            monomial_w = vec4(0.0);
+            if (gap) monomial_begin(s);
+            gap = !some;
 #endif
-        }
-        while (next < window_count && window_entry[next] <= s) {
-            int before = active_count;
-            active_add(ray, window_ball[next++], s);
-            if (active_overflow) return PIECE_CAP;
+            may = piece_may(s, stop, SIDE) && some;
+            if (may) break;
 #ifdef MONOMIAL
-            if (active_count > before) monomial_enter(active_chord(before), active_strength(before), s);
+            monomial_pass(s, stop);
 #endif
+            s = stop;
+            stop = next;
         }
-        if (next == window_count && window_more) {
-            refilled = true;
-            window_load(ray, head, window_entry[WINDOW_MAX - 1], window_ball[WINDOW_MAX - 1]);
-            next = 0;
+        if (!may) {
+            if (slot_overflow) return PIECE_CAP;
+            if ((stop == FAR_AWAY && stream_near == FAR_AWAY) || s >= limit) return PIECE_NONE;
             continue;
         }
-        if (active_count == 0) {
-            if (next == window_count) break;
-            continue;
-        }
-        if (s >= limit) break;
-        float stop = next < window_count ? min(active_end, window_entry[next]) : active_end;
-#ifdef MIDDLES
-        stop = piece_stop(s, stop);
-#endif
         float hit;
-        found = piece_solve(s, stop, SIDE, ROOT_STEPS, hit);
+        int found = piece_solve(s, stop, SIDE, ROOT_STEPS, hit);
         if (found != PIECE_NONE) {
             s = hit;
-            if (found == PIECE_HIT && s > limit) found = PIECE_NONE;
-            break;
+            return found == PIECE_HIT && s > limit ? PIECE_NONE : found;
         }
 #ifdef MONOMIAL
         monomial_pass(s, stop);
 #endif
         s = stop;
-        if (active_end <= s) active_drop(s);
+        stop = next;
     }
-    return found;
 }
 
 void main()
@@ -119,9 +133,7 @@ void main()
         limit = host_limit(position);
 #endif
         float t;
-        bool refilled;
-        int found = cast_walk(ray, head, limit, t, refilled);
-        if (refilled) atomicAdd(count_refilled, 1u);
+        int found = cast_walk(head, limit, t);
         if (found == PIECE_HIT) {
             Surface surface = surface_at(ray, t);
 #if SOLVER == SOLVER_EXACT
@@ -134,10 +146,12 @@ void main()
             pixel.normal = vec4(surface.normal, 1.0);
             pixel.color = surface.color;
         }
-        if (found == PIECE_OPEN)
+        if (stream_disorder)
+            atomicAdd(count_disorder, 1u);
+        else if (found == PIECE_OPEN)
             redo_add(position, REDO_FLOAT);
         else if (found == PIECE_CAP)
-            redo_add(position, active_overflow ? REDO_ACTIVE : REDO_STEPS);
+            redo_add(position, slot_overflow ? REDO_ACTIVE : REDO_STEPS);
     }
     out_t = pixel.t;
     out_normal = pixel.normal;

@@ -20,9 +20,7 @@ void main()
     if (!(square > 0.0)) discard;
     float entry = middle - sqrt(square);
 #ifdef FAR
-    vec3 raw = vec3(view_raw(gl_FragCoord.xy));
-    float length_raw = sqrt(dot(raw, raw));
-    entry += depth.y * (dot(raw, raw) - 1.0) / (length_raw + 1.0);
+    entry += view_excess;
 #endif
     float place = (entry + 4.0e-6 * (abs(middle) + view_reach)) * depth.x;
     gl_FragDepth = clamp(max(place, gl_FragCoord.z), 0.0, 1.0);

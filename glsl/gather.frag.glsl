@@ -9,6 +9,7 @@ layout(early_fragment_tests) in;
 #include "view.glsl"
 #define LISTS_ACCESS
 #include "lists.glsl"
+#include "chord_ends.glsl"
 
 flat in vec4 sphere;
 flat in uint ball;
@@ -23,25 +24,22 @@ void main()
 {
     Ray ray = view_ray(gl_FragCoord.xy);
     vec3 centre = sphere.xyz - ray.start;
-    float middle = dot(centre, ray.way);
-    vec3 offset = centre - middle * ray.way;
     // A little large: what a float calls a miss must be one in doubles, which may read this list again.
-    float radius = sphere.w + 2.0e-6 * (abs(middle) + view_reach);
-    float square = radius * radius - dot(offset, offset);
-    if (!(square > 0.0)) discard;
+    float slack = 2.0e-6 * (abs(centre.x) + abs(centre.y) + abs(centre.z) + view_reach);
+    vec2 chord;
+    if (!chord_ends(centre, sphere.w, ray.way, slack, chord)) discard;
 #ifdef EYE_IN_BALL
-    if (middle + sqrt(square) < 0.0) discard;
+    if (chord.y + slack < 0.0) discard;
 #endif
 #ifdef GATHER_PAPER
-    float entry = middle - sqrt(square);
+    float entry = chord.x;
 #ifdef FAR
-    vec3 raw = vec3(view_raw(gl_FragCoord.xy));
-    entry += depth.y * (dot(raw, raw) - 1.0) / (sqrt(dot(raw, raw)) + 1.0);
+    entry += view_excess;
 #endif
     if (entry * depth.x > texelFetch(core_depth, ivec2(gl_FragCoord.xy), 0).x) discard;
 #endif
-    uint node = atomicCounterIncrement(node_count);
+    uint node = atomicCounterIncrement(node_count) + 1u;
     if (node >= node_capacity) discard;
     uint after = imageAtomicExchange(list_heads, ivec2(gl_FragCoord.xy), node);
-    list_nodes[node] = uvec2(ball, after);
+    list_nodes[node] = uvec4(ball, after, floatBitsToUint(chord));
 }

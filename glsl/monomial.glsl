@@ -14,39 +14,48 @@ vec4 monomial_change(Chord chord, float q, float s, float alpha_times, float bet
     return cube * (alpha_times * alpha + beta_times * beta);
 }
 
-// A ball enters: its entry's change, and its middle's where the ray starts beyond that.
-void monomial_enter(Chord chord, float q, float s)
+// The running cubic from scratch at s, where the walk begins or comes out of a gap.
+void monomial_begin(float s)
 {
-    float middle = 0.5 * (chord.a + chord.b);
-    monomial_w += monomial_change(chord, q, chord.a, 1.0, 1.0);
-    if (middle <= s) monomial_w += monomial_change(chord, q, middle, -2.0, 0.0);
-}
-
-// Everything that happens in (s, stop]: middles and exits.
-void monomial_pass(float s, float stop)
-{
+    monomial_w = vec4(0.0);
     EACH_ACTIVE(j) {
         Chord chord = active_chord(j);
-        float q = active_strength(j);
         float middle = 0.5 * (chord.a + chord.b);
+        monomial_w += monomial_change(chord, chord.strength, chord.a, 1.0, 1.0);
+        if (middle <= s) monomial_w += monomial_change(chord, chord.strength, middle, -2.0, 0.0);
+    }
+}
+
+// Everything that happens in (s, stop]: entries, middles and exits.
+void monomial_pass(float s, float stop)
+{
+    for (int j = 0; j < slot_count; j++) {
+        Chord chord = active_chord(j);
+        float q = chord.strength;
+        float middle = 0.5 * (chord.a + chord.b);
+        if (chord.b <= s) continue;
+        if (chord.a > s && chord.a <= stop) monomial_w += monomial_change(chord, q, chord.a, 1.0, 1.0);
         if (middle > s && middle <= stop) monomial_w += monomial_change(chord, q, middle, -2.0, 0.0);
         if (chord.b <= stop) monomial_w += monomial_change(chord, q, chord.b, 1.0, -1.0);
     }
 }
 
-float piece_stop(float s, float stop)
-{
-    EACH_ACTIVE(j) {
-        Chord chord = active_chord(j);
-        float middle = 0.5 * (chord.a + chord.b);
-        if (middle > s) stop = min(stop, middle);
-    }
-    return stop;
-}
-
 float monomial_at(float s, float side)
 {
     return -side * (((monomial_w.x * s + monomial_w.y) * s + monomial_w.z) * s + monomial_w.w - level.x);
+}
+
+void piece_begin()
+{
+}
+
+void piece_take(Chord chord, float s, float stop)
+{
+}
+
+bool piece_may(float s, float stop, float side)
+{
+    return true;
 }
 
 // The first place in [s, stop] where the cubic is above zero, if its ends or its turning points show one.

@@ -58,26 +58,39 @@ REAL piece_add(inout REAL b[DEGREE + 1], Chord chord, REAL q, REAL s, REAL stop)
     return max(c0, max(c1, c2));
 }
 
-// The first sign change of the field on [s, stop], coming from `side` (-1: from outside, 1: from inside).
+REAL piece_b[DEGREE + 1];  // the field on the piece; from piece_may on less L, turned so that the ray comes from below zero
+REAL piece_margin;         // the rounding that each coefficient may carry
+
+void piece_begin()
+{
+    for (int i = 0; i <= DEGREE; i++) piece_b[i] = NUM(0.0);
+    piece_margin = NUM(0.0);
+}
+
+// Adds an active ball on [s, stop].
+void piece_take(Chord chord, REAL s, REAL stop)
+{
+    REAL most = piece_add(piece_b, chord, chord.strength, s, stop);
+    piece_margin += abs(chord.strength) * density_slope_bound(KERNEL, most) * chord_reach(chord, stop);
+}
+
+// All active balls taken: false where the field surely has no sign change on the piece. side: -1 from outside, 1 from inside.
+bool piece_may(REAL s, REAL stop, REAL side)
+{
+    piece_margin *= TAU;
+#ifdef EYE_INSIDE
+    for (int i = 0; i <= DEGREE; i++) piece_b[i] = (level.x - piece_b[i]) * side;
+#else
+    for (int i = 0; i <= DEGREE; i++) piece_b[i] -= level.x;
+#endif
+    return bernstein_sees(piece_b, piece_margin) != SEES_NONE;
+}
+
+// The first sign change of the field on a piece that piece_may did not refuse.
 int piece_solve(REAL s, REAL stop, REAL side, int steps, out REAL hit)
 {
-    REAL b[DEGREE + 1];
-    for (int i = 0; i <= DEGREE; i++) b[i] = NUM(0.0);
-    REAL margin = NUM(0.0);
-    EACH_ACTIVE(j) {
-        Chord chord = active_chord(j);
-        REAL q = active_strength(j);
-        REAL most = piece_add(b, chord, q, s, stop);
-        margin += abs(q) * density_slope_bound(KERNEL, most) * chord_reach(chord);
-    }
-    margin *= TAU;
-#ifdef EYE_INSIDE
-    for (int i = 0; i <= DEGREE; i++) b[i] = (level.x - b[i]) * side;
-#else
-    for (int i = 0; i <= DEGREE; i++) b[i] -= level.x;
-#endif
     REAL x;
-    int found = bernstein_first(b, margin, steps, x);
+    int found = bernstein_first(piece_b, piece_margin, steps, x);
     hit = s + x * (stop - s);
     return found;
 }

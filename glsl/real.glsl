@@ -3,12 +3,14 @@
 // densities and to their slopes times the distance from the origin of the coordinates.
 #ifdef MNS_DOUBLE
 #define REAL double
+#define REAL2 dvec2
 #define REAL3 dvec3
 #define REAL4 dvec4
 const double TAU = 9.094947017729282379150390625e-13LF;
 const double SOLVE_TOLERANCE = 1.0e-13LF;
 #else
 #define REAL float
+#define REAL2 vec2
 #define REAL3 vec3
 #define REAL4 vec4
 const float TAU = 9.5367431640625e-7;

@@ -2,8 +2,8 @@
 
 layout(std430, binding = 3) buffer Redo {
     uint redo_count;
-    uint count_refilled;  // pixels whose list outgrew the window
-    uint count_active;    // pixels whose active set outgrew the arrays
+    uint count_disorder;  // pixels whose list was out of order: to be sorted and cast again
+    uint count_active;    // pixels whose active set outgrew the slots
     uint count_steps;     // pixels whose root search hit its cap
     uint count_float;     // pixels that float could not decide
     uint count_undecided; // pixels that doubles left open

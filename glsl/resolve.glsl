@@ -52,11 +52,15 @@ int resolve_walk(REAL limit, out REAL s)
         if (s >= limit) return PIECE_NONE;
         REAL stop = active_end;
         if (active_past != NO_NODE) stop = min(stop, active_chord(active_past).a);
-        REAL hit;
-        int found = piece_solve(s, stop, SIDE, RESOLVE_STEPS, hit);
-        if (found != PIECE_NONE) {
-            s = hit;
-            return found == PIECE_HIT && s > limit ? PIECE_NONE : found;
+        piece_begin();
+        EACH_ACTIVE(j) piece_take(active_chord(j), s, stop);
+        if (piece_may(s, stop, SIDE)) {
+            REAL hit;
+            int found = piece_solve(s, stop, SIDE, RESOLVE_STEPS, hit);
+            if (found != PIECE_NONE) {
+                s = hit;
+                return found == PIECE_HIT && s > limit ? PIECE_NONE : found;
+            }
         }
         s = stop;
     }
@@ -69,7 +73,7 @@ void main()
     ivec2 at = ivec2(packed_pixel & 0xffffu, packed_pixel >> 16u);
     vec2 position = vec2(at) + 0.5;
     links_ray = view_ray(position);
-    active_head = links_sort(links_hit(imageLoad(list_heads, at).x));
+    active_head = list_sort(links_hit(imageLoad(list_heads, at).x));
     REAL limit = FAR_AWAY;
 #ifdef HOST_DEPTH
     limit = REAL(host_limit(position));

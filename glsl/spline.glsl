@@ -12,37 +12,37 @@ void spline_add(Chord chord, float q, float s, bool rising, inout float value, i
     slope += (rising ? 6.0 : -6.0) * peak * z * (1.0 - z) / half_length;
 }
 
-// Middles of chords are separators too.
-float piece_stop(float s, float stop)
+float spline_v0, spline_v1, spline_g0, spline_g1; // values and slopes at both ends of the piece
+float spline_b[DEGREE + 1];
+
+void piece_begin()
 {
-    EACH_ACTIVE(j) {
-        Chord chord = active_chord(j);
-        float middle = 0.5 * (chord.a + chord.b);
-        if (middle > s) stop = min(stop, middle);
-    }
-    return stop;
+    spline_v0 = spline_v1 = spline_g0 = spline_g1 = 0.0;
+}
+
+void piece_take(Chord chord, float s, float stop)
+{
+    bool rising = s < 0.5 * (chord.a + chord.b);
+    spline_add(chord, chord.strength, s, rising, spline_v0, spline_g0);
+    spline_add(chord, chord.strength, stop, rising, spline_v1, spline_g1);
+}
+
+bool piece_may(float s, float stop, float side)
+{
+    float third = (stop - s) / 3.0;
+    spline_b[0] = -side * (spline_v0 - level.x);
+    spline_b[1] = -side * (spline_v0 + third * spline_g0 - level.x);
+    spline_b[2] = -side * (spline_v1 - third * spline_g1 - level.x);
+    spline_b[3] = -side * (spline_v1 - level.x);
+    return max(max(spline_b[0], spline_b[1]), max(spline_b[2], spline_b[3])) >= 0.0;
 }
 
 int piece_solve(float s, float stop, float side, int steps, out float hit)
 {
-    float v0 = 0.0, v1 = 0.0, g0 = 0.0, g1 = 0.0;
-    EACH_ACTIVE(j) {
-        Chord chord = active_chord(j);
-        float q = active_strength(j);
-        bool rising = s < 0.5 * (chord.a + chord.b);
-        spline_add(chord, q, s, rising, v0, g0);
-        spline_add(chord, q, stop, rising, v1, g1);
-    }
-    float third = (stop - s) / 3.0;
-    float b[DEGREE + 1];
-    b[0] = -side * (v0 - level.x);
-    b[1] = -side * (v0 + third * g0 - level.x);
-    b[2] = -side * (v1 - third * g1 - level.x);
-    b[3] = -side * (v1 - level.x);
     float x;
-    int found = bernstein_first(b, 0.0, steps, x);
+    int found = bernstein_first(spline_b, 0.0, steps, x);
     hit = s + x * (stop - s);
     // A model is not certified: what its rounding leaves open counts as the root when the value is there, else as none.
-    if (found == PIECE_OPEN || found == PIECE_CAP) found = b[0] >= 0.0 ? PIECE_HIT : PIECE_NONE;
+    if (found == PIECE_OPEN || found == PIECE_CAP) found = spline_b[0] >= 0.0 ? PIECE_HIT : PIECE_NONE;
     return found;
 }

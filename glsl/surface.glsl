@@ -31,14 +31,15 @@ Surface surface_at(Ray ray, REAL t)
     REAL least = FAR_AWAY;
     EACH_ACTIVE(j) {
         uint ball = active_ball(j);
-        REAL radius = ball_radius(ball);
+        Ball here = ball_get(ball);
+        REAL radius = here.radius;
         REAL shrink = NUM(1.0) / radius;
         least = min(least, radius);
         REAL middle;
-        REAL3 offset = chord_offset(ball_centre(ball) - ray.start, ray.way, middle);
+        REAL3 offset = chord_offset(here.centre - ray.start, ray.way, middle);
         precise REAL3 from = ((t - middle) * ray.way - offset) * shrink; // from the centre, in radii
         REAL u = min(dot(from, from), NUM(1.0));
-        REAL q = active_strength(j);
+        REAL q = here.strength;
         REAL part = q * density_value(KERNEL, u);
         value += part;
         gradient += q * density_slope_over_v(KERNEL, u) * shrink * from;

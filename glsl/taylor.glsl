@@ -14,7 +14,7 @@ Slope taylor_at(REAL s, REAL side)
     REAL slope = NUM(0.0);
     EACH_ACTIVE(j) {
         Chord chord = active_chord(j);
-        REAL q = active_strength(j);
+        REAL q = chord.strength;
         REAL w = clamp((s - chord.a) * (chord.b - s) * chord.shrink, NUM(0.0), NUM(1.0));
         REAL u = NUM(1.0) - w;
         value += q * density_value(KERNEL, u);
@@ -26,26 +26,40 @@ Slope taylor_at(REAL s, REAL side)
     return at;
 }
 
+REAL taylor_peak;     // no more than this on the piece
+REAL taylor_margin;   // of rounding
+REAL taylor_rise;     // bound on the second derivative where it helps f towards L from outside
+REAL taylor_sink;     // and from inside
+
+void piece_begin()
+{
+    taylor_peak = taylor_margin = taylor_rise = taylor_sink = NUM(0.0);
+}
+
+void piece_take(Chord chord, REAL s, REAL stop)
+{
+    REAL q = abs(chord.strength);
+    REAL middle = clamp(NUM(0.5) * (chord.a + chord.b), s, stop);
+    REAL most = clamp((middle - chord.a) * (chord.b - middle) * chord.shrink, NUM(0.0), NUM(1.0));
+    taylor_peak += max(chord.strength, NUM(0.0)) * density_value(KERNEL, NUM(1.0) - most);
+    taylor_margin += q * density_slope_bound(KERNEL, most) * chord_reach(chord, stop);
+    bool adds = chord.strength > NUM(0.0);
+    taylor_rise += q * chord.shrink * (adds ? density_rise_bound(KERNEL) : density_curvature_bound(KERNEL));
+    taylor_sink += q * chord.shrink * (adds ? density_curvature_bound(KERNEL) : density_rise_bound(KERNEL));
+}
+
+bool piece_may(REAL s, REAL stop, REAL side)
+{
+    taylor_margin *= TAU;
+    return side > NUM(0.0) || taylor_peak + taylor_margin >= level.x;
+}
+
 int piece_solve(REAL s, REAL stop, REAL side, int steps, out REAL hit)
 {
-    REAL margin = NUM(0.0);  // of rounding
-    REAL peak = NUM(0.0);    // no more than this on the whole piece
-    REAL rise = NUM(0.0);    // bound on the second derivative where it helps f towards L
-    REAL bend = NUM(0.0);    // bound on its size
-    EACH_ACTIVE(j) {
-        Chord chord = active_chord(j);
-        REAL q = active_strength(j);
-        REAL middle = clamp(NUM(0.5) * (chord.a + chord.b), s, stop);
-        REAL most = clamp((middle - chord.a) * (chord.b - middle) * chord.shrink, NUM(0.0), NUM(1.0));
-        margin += abs(q) * density_slope_bound(KERNEL, most) * chord_reach(chord);
-        peak += max(q, NUM(0.0)) * density_value(KERNEL, NUM(1.0) - most);
-        REAL curve = abs(q) * density_curvature_bound(KERNEL) * chord.shrink;
-        bend += curve;
-        rise += q * side < NUM(0.0) ? abs(q) * density_rise_bound(KERNEL) * chord.shrink : curve;
-    }
-    margin *= TAU;
+    REAL margin = taylor_margin;
+    REAL rise = side < NUM(0.0) ? taylor_rise : taylor_sink;
+    REAL bend = max(taylor_rise, taylor_sink);
     hit = s;
-    if (side < NUM(0.0) && peak + margin < level.x) return PIECE_NONE;
     for (int step = 0; step < steps; step++) {
         Slope at = taylor_at(s, side);
         if (at.value >= NUM(-2.0) * margin) {

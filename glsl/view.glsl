@@ -16,9 +16,11 @@ layout(std140, binding = 0) uniform View {
     REAL4 lens;    // cotangents of half the field of view across and up, width, height
     REAL4 depth;   // 1 / range of effective distances, depth of the plane where rays begin, jitter in pixels x, y
     REAL4 level;   // L, the radius of all balls, 1 / its square, reach: how far from o a ray begins at most
-    REAL4 core;    // core radius over R of every ball
+    REAL4 core;    // core radius over R of every ball, 1 / the radius of all balls
     REAL4 host;    // near, far of a host's projection, lower left corner of the view in its framebuffer
 };
+
+#define level_inverse core.y
 
 struct Ray {
     REAL3 start;
@@ -27,6 +29,7 @@ struct Ray {
 
 #ifdef FAR
 REAL view_reach;   // distance of the ray's start from o
+REAL view_excess;  // way from the eye to the ray's start, less the depth of the plane where rays begin
 #else
 const REAL view_reach = NUM(0.0);
 #endif
@@ -49,6 +52,7 @@ Ray view_ray(vec2 pixel)
     precise REAL3 from = start.xyz + (NUM(pixel.x) + depth.z) * start_x.xyz + (NUM(pixel.y) + depth.w) * start_y.xyz;
     ray.start = from;
     view_reach = sqrt(dot(from, from));
+    view_excess = depth.y * (dot(raw, raw) - NUM(1.0)) / (sqrt(dot(raw, raw)) + NUM(1.0));
 #else
     ray.start = REAL3(0.0);
 #endif

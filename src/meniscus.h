@@ -224,8 +224,7 @@ typedef struct mns_options {
     bool measure;          /* fill the phases' times (each closed by glFinish) and the lengths of the lists */
     size_t max_pool_nodes; /* 0: what the driver allows; fewer makes the frame be drawn in more tiles */
     /* For tests and diagnosis: each drives a path that ordinary scenes seldom take; the picture stays right. */
-    int window;            /* balls of a pixel's sorted window; 0: the plan's choice */
-    int active;            /* balls active at once before the slow path; 0: the plan's choice */
+    int slots;             /* balls of a ray at once before the slow path; 0: the plan's choice */
     int root_steps;        /* steps of a root search before the slow path; 0: the plan's choice */
     uint32_t shuffle;      /* not 0: a seed by which the gathered lists are put in a random order */
 } mns_options;
@@ -236,6 +235,7 @@ typedef struct mns_limits { /* of a driver; zeros: the minima of OpenGL 4.3 */
     size_t max_storage_block;   /* bytes, GL_MAX_SHADER_STORAGE_BLOCK_SIZE */
     int max_texture_size;       /* GL_MAX_TEXTURE_SIZE */
     int max_viewport[2];        /* GL_MAX_VIEWPORT_DIMS */
+    int max_texture_buffer;     /* texels, GL_MAX_TEXTURE_BUFFER_SIZE */
     double max_point_size;      /* GL_POINT_SIZE_RANGE[1] */
     bool is_software;           /* the renderer is llvmpipe, softpipe or swr */
     bool has_clip_control;      /* GL 4.5 or GL_ARB_clip_control */
@@ -354,8 +354,8 @@ typedef struct mns_stats {
     struct {                    /* each counts what took a slower path, and still came out right */
         uint64_t pool_grown;       /* node pool enlarged and gathered again */
         uint64_t tiled;            /* frame cut up because the pool would pass the driver's block limit */
-        uint64_t window_refilled;  /* pixels whose list outgrew the sorted window */
-        uint64_t active_overflow;  /* pixels whose active set outgrew the local array */
+        uint64_t lists_sorted;     /* times that lists came out of order and were sorted */
+        uint64_t active_overflow;  /* pixels whose active set outgrew the slots */
         uint64_t root_cap;         /* pixels whose root search hit its cap */
         uint64_t undecided_float;  /* pixels that float could not decide, solved again in double */
     } fallbacks;

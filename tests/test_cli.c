@@ -201,8 +201,7 @@ static void help_of_render_lists_every_option(void **state)
         "--shininess=X",
         "--threads=N",
         "--pool=N",
-        "--window=N",
-        "--active=N",
+        "--slots=N",
         "--root-steps=N",
         "--shuffle=SEED",
     };

@@ -91,7 +91,7 @@ static void statistics_hold_every_key_of_the_design(void **state)
         "balls", "balls_in_view", "pixels",   "pixels_hit", "pixels_undecided", "list_nodes",
         "tiles", "passes",        "programs", "buffers",    "driver_messages"};
     static const char *const list_key[] = {"mean", "p99", "max"};
-    static const char *const fallback_key[] = {"pool_grown",      "tiled",    "window_refilled",
+    static const char *const fallback_key[] = {"pool_grown",      "tiled",    "lists_sorted",
                                                "active_overflow", "root_cap", "undecided_float"};
     static const char *const memory_key[] = {"peak_rss_bytes"};
     cli *c = *state;

@@ -87,7 +87,7 @@ static json_t *fallbacks(const mns_stats *s)
     json_t *object = json_object();
     json_object_set_new(object, "pool_grown", count(s->fallbacks.pool_grown));
     json_object_set_new(object, "tiled", count(s->fallbacks.tiled));
-    json_object_set_new(object, "window_refilled", count(s->fallbacks.window_refilled));
+    json_object_set_new(object, "lists_sorted", count(s->fallbacks.lists_sorted));
     json_object_set_new(object, "active_overflow", count(s->fallbacks.active_overflow));
     json_object_set_new(object, "root_cap", count(s->fallbacks.root_cap));
     json_object_set_new(object, "undecided_float", count(s->fallbacks.undecided_float));

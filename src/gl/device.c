@@ -24,7 +24,9 @@ static void read_limits(gl_device *device)
     GLint64 block = 0;
     gl->GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
     limits->max_storage_block = block > 0 ? (size_t)block : 0;
-    GLint size = 0, viewport[2] = {0, 0};
+    GLint size = 0, texels = 0, viewport[2] = {0, 0};
+    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+    limits->max_texture_buffer = texels;
     gl->GetIntegerv(GL_MAX_TEXTURE_SIZE, &size);
     gl->GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport);
     GLfloat point[2] = {1, 1};

@@ -35,6 +35,7 @@ static void take_bindings(const GladGLContext *gl, gl_state *s)
     for (GLuint i = 0; i < STATE_TEXTURES; i++) {
         gl->ActiveTexture(GL_TEXTURE0 + i);
         gl->GetIntegerv(GL_TEXTURE_BINDING_2D, &s->texture[i]);
+        gl->GetIntegerv(GL_TEXTURE_BINDING_BUFFER, &s->texels[i]);
         gl->GetIntegerv(GL_SAMPLER_BINDING, &s->sampler[i]);
         gl->BindSampler(i, 0);
     }
@@ -94,6 +95,7 @@ static void put_bindings(const GladGLContext *gl, const gl_state *s)
     for (GLuint i = 0; i < STATE_TEXTURES; i++) {
         gl->ActiveTexture(GL_TEXTURE0 + i);
         gl->BindTexture(GL_TEXTURE_2D, (GLuint)s->texture[i]);
+        gl->BindTexture(GL_TEXTURE_BUFFER, (GLuint)s->texels[i]);
         gl->BindSampler(i, (GLuint)s->sampler[i]);
     }
     gl->ActiveTexture((GLenum)s->active_texture);

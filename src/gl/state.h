@@ -4,7 +4,7 @@
 
 #include "gl/device.h"
 
-enum { STATE_TEXTURES = 3, STATE_IMAGES = 4, STATE_STORAGE = 5, STATE_UNIFORMS = 2, STATE_SWITCHES = 10 };
+enum { STATE_TEXTURES = 4, STATE_IMAGES = 4, STATE_STORAGE = 5, STATE_UNIFORMS = 2, STATE_SWITCHES = 10 };
 
 typedef struct gl_indexed {
     GLint buffer;
@@ -12,7 +12,8 @@ typedef struct gl_indexed {
 } gl_indexed;
 
 typedef struct gl_state {
-    GLint program, vertex_array, draw_target, read_target, active_texture, texture[STATE_TEXTURES], sampler[STATE_TEXTURES];
+    GLint program, vertex_array, draw_target, read_target, active_texture, texture[STATE_TEXTURES],
+        texels[STATE_TEXTURES], sampler[STATE_TEXTURES];
     GLint array_buffer, uniform_buffer, storage_buffer, counter_buffer, pack_buffer, unpack_buffer;
     gl_indexed storage[STATE_STORAGE], uniforms[STATE_UNIFORMS], counter;
     GLint image[STATE_IMAGES][6];

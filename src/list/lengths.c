@@ -7,8 +7,8 @@
 static uint32_t walk(uint32_t head, const uint32_t *nodes, size_t count)
 {
     uint32_t length = 0;
-    while (head < count && length < count) {
-        head = nodes[2 * (size_t)head + 1];
+    while (head && head < count && length < count) {
+        head = nodes[4 * (size_t)head + 1];
         length++;
     }
     return length;
@@ -20,13 +20,13 @@ bool list_lengths_add(list_lengths *lengths, list_passes *p, gl_device *device, 
     size_t pixels = (size_t)region.width * (size_t)region.height;
     uint32_t *larger = memory_resize(lengths->length, lengths->count + pixels, sizeof *larger);
     if (larger) lengths->length = larger;
-    uint32_t *head = memory_array(pixels, sizeof *head), *pool = memory_array(nodes, 2 * sizeof *pool);
+    uint32_t *head = memory_array(pixels, sizeof *head), *pool = memory_array(nodes, LIST_NODE);
     bool good = larger && head && pool;
     if (good) {
         gl->BindFramebuffer(GL_READ_FRAMEBUFFER, p->heads_target);
         gl->ReadPixels(region.x, region.y, region.width, region.height, GL_RED_INTEGER, GL_UNSIGNED_INT, head);
         gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->nodes.id);
-        gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, (GLsizeiptr)(nodes * 8), pool);
+        gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, (GLsizeiptr)(nodes * LIST_NODE), pool);
         for (size_t i = 0; i < pixels; i++) {
             uint32_t length = walk(head[i], pool, nodes);
             if (length) lengths->length[lengths->count++] = length;

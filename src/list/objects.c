@@ -49,7 +49,7 @@ static mns_status buffers(list_passes *p, gl_device *device, const mns_plan *pla
         const char *what;
         size_t size;
     } wanted[] = {
-        {&p->nodes, "node pool", plan->pool_nodes * 8},
+        {&p->nodes, "node pool", plan->pool_nodes * LIST_NODE},
         {&p->counter, "node counter", sizeof(uint32_t)},
         {&p->redo, "list of pixels to resolve", sizeof(list_counts) + pixels * sizeof(uint32_t)},
         {&p->view, "view", VIEW_VECTORS * 4 * sizeof(float)},
@@ -83,7 +83,7 @@ mns_status list_passes_prepare(list_passes *p, gl_device *device, const mns_plan
     p->width = width;
     p->height = height;
     mns_status status = buffers(p, device, plan, error);
-    p->node_capacity = p->nodes.size / 8 < plan->pool_most ? p->nodes.size / 8 : plan->pool_most;
+    p->node_capacity = p->nodes.size / LIST_NODE < plan->pool_most ? p->nodes.size / LIST_NODE : plan->pool_most;
     return status ? status : gl_check(device, "list buffers", error);
 }
 
@@ -91,11 +91,12 @@ void list_passes_free(list_passes *p, gl_device *device)
 {
     const GladGLContext *gl = &device->gl;
     gl_buffer *all[] = {&p->balls,   &p->balls_low, &p->cores, &p->colors,    &p->nodes,
-                        &p->counter, &p->redo,      &p->view,  &p->view_wide, &p->far_block};
+                        &p->counter, &p->redo,      &p->view,  &p->view_wide, &p->far_block,
+                        &p->backwards};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) gl_buffer_free(device, all[i]);
-    GLuint textures[] = {p->heads, p->core_depth, p->host_depth};
+    GLuint textures[] = {p->heads, p->core_depth, p->host_depth, p->ball_texels, p->node_texels};
     GLuint targets[] = {p->heads_target, p->depth_target, p->bare_target};
-    gl->DeleteTextures(3, textures);
+    gl->DeleteTextures(5, textures);
     gl->DeleteFramebuffers(3, targets);
     gl->DeleteVertexArrays(1, &p->vertex_array);
     *p = (list_passes){0};
@@ -109,7 +110,7 @@ mns_status list_passes_compile(gl_device *device, gl_programs *programs, const m
         gl_shader shader = {.defines = defines};
         program[i] = 0;
         /* What only some pixels or balls may need is compiled when they do. */
-        if (!plan_needs(plan, i) || i == SHADER_RESOLVE) continue;
+        if (!plan_needs(plan, i) || i == SHADER_RESOLVE || i == SHADER_ORDER) continue;
         plan_shader_files(i, &shader.vertex, &shader.fragment, &shader.compute);
         plan_shader_defines(plan, i, defines);
         mns_status status = gl_program_get(device, programs, &shader, &program[i], error);

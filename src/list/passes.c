@@ -7,7 +7,11 @@ enum { UNIFORM_FIRST_BALL = 0, UNIFORM_CAPACITY = 1, UNIFORM_SEED = 0 };
 static void scissor(gl_device *device, const list_passes *p, list_region region)
 {
     device->gl.Viewport(0, 0, p->width, p->height);
-    device->gl.Enable(GL_SCISSOR_TEST);
+    bool whole = region.width == p->width && region.height == p->height;
+    if (whole)
+        device->gl.Disable(GL_SCISSOR_TEST);
+    else
+        device->gl.Enable(GL_SCISSOR_TEST);
     device->gl.Scissor(region.x, region.y, region.width, region.height);
 }
 
@@ -39,23 +43,49 @@ static void attributes(list_passes *p, gl_device *device, const mns_plan *plan, 
     gl->BindBuffer(GL_ARRAY_BUFFER, 0);
 }
 
-/* Every ball in view as its rectangle or point, nearest first. */
-static void draw_balls(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order, GLuint quads,
-                       GLuint points, bool capacity)
+/* Points nearest first, or farthest first so that lists, which grow at their head, begin with the nearest. */
+static void draw_points(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
+                        bool backwards)
 {
     const GladGLContext *gl = &device->gl;
+    GLsizei count = (GLsizei)(order->count - order->quads);
+    attributes(p, device, plan, 0, false);
+    if (!backwards) {
+        gl->DrawArrays(GL_POINTS, (GLint)order->quads, count);
+        return;
+    }
+    size_t skipped = p->backwards.size / sizeof(uint32_t) - order->count;
+    gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, p->backwards.id);
+    gl->DrawElements(GL_POINTS, count, GL_UNSIGNED_INT, (const void *)(skipped * sizeof(uint32_t)));
+    gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
+}
+
+static void draw_quads(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order)
+{
+    attributes(p, device, plan, 0, true);
+    device->gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)order->quads);
+}
+
+/* Every ball in view as its rectangle or point: for the core pass, then for gather, which counts nodes. */
+static void draw_balls(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order, GLuint quads,
+                       GLuint points, bool gather)
+{
+    const GladGLContext *gl = &device->gl;
+    bool some_points = order->count > order->quads;
+    if (some_points && gather) {
+        gl->UseProgram(points);
+        gl->Uniform1ui(UNIFORM_CAPACITY, (GLuint)p->node_capacity);
+        draw_points(p, device, plan, order, true);
+    }
     if (order->quads) {
         gl->UseProgram(quads);
         gl->Uniform1ui(UNIFORM_FIRST_BALL, 0);
-        if (capacity) gl->Uniform1ui(UNIFORM_CAPACITY, (GLuint)p->node_capacity);
-        attributes(p, device, plan, 0, true);
-        gl->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)order->quads);
+        if (gather) gl->Uniform1ui(UNIFORM_CAPACITY, (GLuint)p->node_capacity);
+        draw_quads(p, device, plan, order);
     }
-    if (order->count > order->quads) {
+    if (some_points && !gather) {
         gl->UseProgram(points);
-        if (capacity) gl->Uniform1ui(UNIFORM_CAPACITY, (GLuint)p->node_capacity);
-        attributes(p, device, plan, 0, false);
-        gl->DrawArrays(GL_POINTS, (GLint)order->quads, (GLsizei)(order->count - order->quads));
+        draw_points(p, device, plan, order, false);
     }
     gl->BindVertexArray(0);
 }
@@ -97,7 +127,7 @@ size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, cons
 {
     const GladGLContext *gl = &device->gl;
     bool tested = plan->features & (FEATURE_CORE | FEATURE_HOST), paper = plan->features & FEATURE_PAPER;
-    const GLuint none[4] = {0xffffffffu, 0, 0, 0}, zero = 0;
+    const GLuint none[4] = {0, 0, 0, 0}, zero = 0;
     gl->BindFramebuffer(GL_FRAMEBUFFER, p->heads_target);
     scissor(device, p, region);
     gl->ClearBufferuiv(GL_COLOR, 0, none);
@@ -121,11 +151,28 @@ size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, cons
     gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     draw_balls(p, device, plan, order, program[SHADER_GATHER_QUADS], program[SHADER_GATHER_POINTS], true);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                      GL_ATOMIC_COUNTER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+                      GL_ATOMIC_COUNTER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     GLuint wanted = 0;
     gl->GetBufferSubData(GL_ATOMIC_COUNTER_BUFFER, 0, sizeof wanted, &wanted);
     gl->Disable(GL_DEPTH_TEST);
-    return wanted;
+    return (size_t)wanted + 1; /* node 0 ends the lists */
+}
+
+/* A compute pass over all lists, a pixel an invocation. */
+static void visit_lists(list_passes *p, gl_device *device)
+{
+    const GladGLContext *gl = &device->gl;
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, p->nodes.id);
+    gl->BindImageTexture(0, p->heads, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
+    gl->DispatchCompute((GLuint)(p->width + 7) / 8, (GLuint)(p->height + 7) / 8, 1);
+    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                      GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void list_sort_nodes(list_passes *p, gl_device *device, GLuint program)
+{
+    device->gl.UseProgram(program);
+    visit_lists(p, device);
 }
 
 void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT])
@@ -133,16 +180,27 @@ void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const
     const GladGLContext *gl = &device->gl;
     gl->UseProgram(program[SHADER_SHUFFLE]);
     gl->Uniform1ui(UNIFORM_SEED, plan->options.shuffle);
-    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, p->nodes.id);
-    gl->BindImageTexture(0, p->heads, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
-    gl->DispatchCompute((GLuint)(p->width + 7) / 8, (GLuint)(p->height + 7) / 8, 1);
-    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    visit_lists(p, device);
+}
+
+static void bind_texels(gl_device *device, GLuint *texture, GLenum unit, GLenum format, GLuint buffer)
+{
+    const GladGLContext *gl = &device->gl;
+    if (!*texture) gl->GenTextures(1, texture);
+    gl->ActiveTexture(unit);
+    gl->BindTexture(GL_TEXTURE_BUFFER, *texture);
+    gl->TexBuffer(GL_TEXTURE_BUFFER, format, buffer);
 }
 
 /* What both the cast and resolve read. */
-static void bind_lists(list_passes *p, gl_device *device)
+static void bind_lists(list_passes *p, gl_device *device, const mns_plan *plan)
 {
+    static const GLenum formats[] = {[3] = GL_RGB32F, [4] = GL_RGBA32F, [5] = GL_R32F};
     const GladGLContext *gl = &device->gl;
+    if (plan->features & FEATURE_TEXELS) {
+        bind_texels(device, &p->ball_texels, GL_TEXTURE2, formats[plan->ball_floats], p->balls.id);
+        bind_texels(device, &p->node_texels, GL_TEXTURE3, GL_RGBA32UI, p->nodes.id);
+    }
     if (p->far_block.id) gl->BindBufferBase(GL_UNIFORM_BUFFER, 1, p->far_block.id);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, p->balls.id);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, p->nodes.id);
@@ -166,24 +224,23 @@ void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GL
 {
     const GladGLContext *gl = &device->gl;
     const list_counts none = {0};
-    (void)plan;
     gl->BindFramebuffer(GL_FRAMEBUFFER, target);
     scissor(device, p, region);
     gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
     gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof none, &none);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view.id);
-    bind_lists(p, device);
+    bind_lists(p, device, plan);
     draw_screen(p, device, program[SHADER_CAST]);
     read_counts(p, device, counts);
 }
 
-void list_resolve(list_passes *p, gl_device *device, GLuint program, const GLuint plane[3], uint32_t redo,
+void list_resolve(list_passes *p, gl_device *device, const mns_plan *plan, GLuint program, const GLuint plane[3], uint32_t redo,
                   list_counts *counts)
 {
     const GladGLContext *gl = &device->gl;
     gl->UseProgram(program);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view_wide.id);
-    bind_lists(p, device);
+    bind_lists(p, device, plan);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, p->balls_low.id);
     gl->BindImageTexture(1, plane[0], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
     gl->BindImageTexture(2, plane[1], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);

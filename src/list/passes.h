@@ -12,13 +12,15 @@ typedef struct list_region {
 
 /* What a cast leaves to be read, as in glsl/redo.glsl. */
 typedef struct list_counts {
-    uint32_t redo, refilled, active, steps, undecided_float, undecided, spare[2];
+    uint32_t redo, disorder, active, steps, undecided_float, undecided, spare[2];
 } list_counts;
 
 /* The GL objects of the list method; zeroed is empty. Textures are of the frame's size. */
 typedef struct list_passes {
     gl_buffer balls, balls_low, cores, colors, nodes, counter, redo, view, view_wide, far_block;
+    gl_buffer backwards;                  /* n - 1, ..., 1, 0 */
     GLuint heads, core_depth, host_depth; /* textures */
+    GLuint ball_texels, node_texels;      /* buffer textures (TEXELS) */
     GLuint heads_target, depth_target, bare_target; /* framebuffers */
     GLuint vertex_array;
     int width, height;
@@ -37,9 +39,13 @@ mns_status list_passes_compile(gl_device *device, gl_programs *programs, const m
 void list_core_depth(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
                      const GLuint program[SHADER_COUNT], list_region region);
 
-/* Gathers the lists of a region. Returns the nodes wanted, which may be more than the pool held: then gather again. */
+/* Gathers the lists of a region. Returns the nodes wanted, the one that ends every list included; where that is more than
+ * the pool holds, gather again. */
 size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
                    const GLuint program[SHADER_COUNT], list_region region);
+
+/* Puts every list in the order of the balls. */
+void list_sort_nodes(list_passes *p, gl_device *device, GLuint program);
 
 void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT]);
 
@@ -48,7 +54,7 @@ void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GL
                GLuint target, list_region region, list_counts *counts);
 
 /* Solves `redo` pixels again in doubles into the planes' textures (t, normal, color or 0). Needs balls_low. */
-void list_resolve(list_passes *p, gl_device *device, GLuint program, const GLuint plane[3], uint32_t redo,
+void list_resolve(list_passes *p, gl_device *device, const mns_plan *plan, GLuint program, const GLuint plane[3], uint32_t redo,
                   list_counts *counts);
 
 #endif

@@ -7,7 +7,7 @@ static const char *const feature_names[FEATURE_COUNT] = {
     [5] = "radii",         [6] = "strengths",    [7] = "core",     [8] = "core_radii",   [9] = "paper",
     [10] = "points",       [11] = "quads",       [12] = "eye_in_ball", [13] = "eye_inside", [14] = "far",
     [15] = "host",         [16] = "shuffle",     [17] = "colors",  [18] = "labels",      [19] = "cel",
-    [20] = "directional",  [21] = "specular",    [22] = "samples", [23] = "clip_zero",
+    [20] = "directional",  [21] = "specular",    [22] = "samples", [23] = "clip_zero",   [24] = "texels",
 };
 
 static const char *const solver_names[] = {"exact", "cubic", "cubic-monomial"};

@@ -10,6 +10,7 @@
 static const mns_limits least_limits = {
     .max_storage_block = 1u << 24,
     .max_texture_size = 16384,
+    .max_texture_buffer = 65536,
     .max_viewport = {16384, 16384},
     .max_point_size = 1,
 };
@@ -32,8 +33,8 @@ static mns_status check_options(const mns_options *options, mns_error *error)
         return status_fail(error, MNS_ERROR_USAGE, "options: no gather %d", options->gather);
     if (options->samples < 0 || options->samples > 64)
         return status_fail(error, MNS_ERROR_USAGE, "options: %d samples a pixel; take 1 to 64", options->samples);
-    if (options->window < 0 || options->window > 256 || options->active < 0 || options->active > 256)
-        return status_fail(error, MNS_ERROR_USAGE, "options: window and active hold 1 to 256 balls");
+    if (options->slots < 0 || options->slots > 1024)
+        return status_fail(error, MNS_ERROR_USAGE, "options: %d slots; take 1 to 1024", options->slots);
     if (options->root_steps < 0 || options->root_steps > 4096)
         return status_fail(error, MNS_ERROR_USAGE, "options: %d root steps; take 1 to 4096", options->root_steps);
     return MNS_OK;
@@ -45,8 +46,7 @@ static void resolve_options(const mns_options *options, mns_plan *plan)
     *o = options ? *options : (mns_options){0};
     o->method = MNS_METHOD_LIST;
     if (!o->samples) o->samples = 1;
-    if (!o->window) o->window = plan->limits.is_software ? 64 : 24;
-    if (!o->active) o->active = plan->limits.is_software ? 64 : 24;
+    if (!o->slots) o->slots = plan->limits.is_software ? 64 : 24;
     if (!o->root_steps) o->root_steps = 48;
     plan->method_reason = options && options->method == MNS_METHOD_LIST ? "asked for" : "auto: the method of this build";
 }
@@ -179,12 +179,17 @@ static void plan_passes(mns_plan *plan)
 static void plan_pool(mns_plan *plan, const mns_field *field)
 {
     size_t pixels = (size_t)plan->frame.width * (size_t)plan->frame.height;
-    plan->pool_most = plan->limits.max_storage_block / 8;
+    plan->pool_most = plan->limits.max_storage_block / LIST_NODE;
     if (plan->options.max_pool_nodes && plan->options.max_pool_nodes < plan->pool_most)
         plan->pool_most = plan->options.max_pool_nodes;
     plan->pool_nodes = pixels * 4 < 65536 ? 65536 : pixels * 4;
     if (!field->p.count) plan->pool_nodes = 1;
     if (plan->pool_nodes > plan->pool_most) plan->pool_nodes = plan->pool_most;
+    size_t texels = (size_t)plan->limits.max_texture_buffer;
+    if (plan->pool_most <= texels && field->p.count * plan->ball_floats <= texels)
+        plan->features |= FEATURE_TEXELS;
+    else
+        leave_out(plan, "reading by texels", "this driver's buffer textures are too small");
 }
 
 static mns_status check_limits(const mns_plan *plan, const mns_field *field, mns_error *error)

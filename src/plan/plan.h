@@ -28,7 +28,8 @@ enum plan_feature {
     FEATURE_SPECULAR = 1 << 21,
     FEATURE_SAMPLES = 1 << 22,     /* more than one sample a pixel */
     FEATURE_CLIP_ZERO = 1 << 23,   /* clip control: depth without the 2z - 1 */
-    FEATURE_COUNT = 24
+    FEATURE_TEXELS = 1 << 24,      /* balls and lists are read as texels */
+    FEATURE_COUNT = 25
 };
 
 enum { PLAN_MOST = 16 };  /* passes; parts left out are at most PLAN_PARTS */
@@ -93,6 +94,7 @@ typedef enum plan_shader {
     SHADER_GATHER_QUADS,
     SHADER_GATHER_POINTS,
     SHADER_SHUFFLE,
+    SHADER_ORDER,
     SHADER_CAST,
     SHADER_RESOLVE,
     SHADER_SHADE,
@@ -110,6 +112,7 @@ void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[
 /* Whether the plan's frame may run that program. */
 bool plan_needs(const mns_plan *plan, plan_shader shader);
 
+enum { LIST_NODE = 16 };    /* bytes of a node of the per-pixel lists */
 enum { RESOLVE_GROUP = 8 }; /* invocations a group of the resolve pass */
 
 #endif

@@ -11,7 +11,7 @@ typedef struct shader_part {
 enum {
     READS_BALL = FEATURE_KERNEL | FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_FAR,
     READS_RAY = READS_BALL | FEATURE_SOLVER | FEATURE_EYE_IN_BALL | FEATURE_EYE_INSIDE | FEATURE_HOST | FEATURE_COLORS |
-                FEATURE_LABELS,
+                FEATURE_LABELS | FEATURE_TEXELS,
     READS_BILLBOARD = FEATURE_RADII | FEATURE_FAR | FEATURE_CLIP_ZERO,
 };
 
@@ -22,9 +22,11 @@ static const shader_part parts[SHADER_COUNT] = {
                              READS_BILLBOARD | FEATURE_EYE_IN_BALL | FEATURE_PAPER | FEATURE_CORE | FEATURE_HOST},
     [SHADER_GATHER_POINTS] = {"billboard.vert.glsl", "gather.frag.glsl", NULL,
                               READS_BILLBOARD | FEATURE_EYE_IN_BALL | FEATURE_PAPER | FEATURE_CORE | FEATURE_HOST},
+    [SHADER_ORDER] = {NULL, NULL, "order.glsl", 0},
     [SHADER_SHUFFLE] = {NULL, NULL, "shuffle.glsl", 0},
     [SHADER_CAST] = {"screen.vert.glsl", "cast.glsl", NULL, READS_RAY},
-    [SHADER_RESOLVE] = {NULL, NULL, "resolve.glsl", READS_RAY & ~(uint64_t)FEATURE_SOLVER},
+    [SHADER_RESOLVE] = {NULL, NULL, "resolve.glsl",
+                        READS_RAY & ~(uint64_t)(FEATURE_SOLVER | FEATURE_TEXELS)},
     [SHADER_SHADE] = {"screen.vert.glsl", "shade.frag.glsl", NULL,
                       FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_DIRECTIONAL | FEATURE_SPECULAR},
     [SHADER_HOST_DEPTH] = {"screen.vert.glsl", "host_depth.frag.glsl", NULL, FEATURE_FAR},
@@ -63,6 +65,7 @@ static void add_features(char *defines, uint64_t f)
         {FEATURE_DIRECTIONAL, "DIRECTIONAL"},
         {FEATURE_SPECULAR, "SPECULAR"},
         {FEATURE_CLIP_ZERO, "CLIP_ZERO_TO_ONE"},
+        {FEATURE_TEXELS, "BALL_TEXELS"},
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (f & names[i].bit) add(defines, names[i].name, 1);
@@ -82,8 +85,7 @@ static void add_ray(const mns_plan *plan, plan_shader shader, char *defines, uin
     add(defines, "SOLVER_EXACT", MNS_SOLVER_EXACT);
     add(defines, "SOLVER_CUBIC", MNS_SOLVER_CUBIC);
     add(defines, "SOLVER", (int)((f & FEATURE_SOLVER) >> 3));
-    add(defines, "WINDOW_MAX", plan->options.window);
-    add(defines, "ACTIVE_MAX", plan->options.active);
+    add(defines, "SLOTS", plan->options.slots);
     add(defines, "ROOT_STEPS", plan->options.root_steps);
 }
 

@@ -78,6 +78,24 @@ static mns_status upload(draw *d, gl_buffer *buffer, const char *what, size_t fl
     return MNS_OK;
 }
 
+/* The indices that draw points farthest first; they change only when there are more balls than ever. */
+static mns_status count_backwards(draw *d, mns_error *error)
+{
+    gl_device *device = &d->r->device;
+    gl_buffer *buffer = &d->r->passes.backwards;
+    size_t size = d->r->order.count * sizeof(uint32_t);
+    uint32_t *index;
+    if (buffer->id && buffer->size >= size) return MNS_OK;
+    mns_status status = gl_buffer_reserve(device, buffer, "indices", size, 0, error);
+    do {
+        if (!status) status = gl_buffer_map(device, buffer, buffer->size, (void **)&index, error);
+        if (status) return status;
+        size_t count = buffer->size / sizeof *index;
+        for (size_t i = 0; i < count; i++) index[i] = (uint32_t)(count - 1 - i);
+    } while (!gl_buffer_unmap(device, buffer));
+    return MNS_OK;
+}
+
 static mns_status sort_and_upload(draw *d, mns_error *error)
 {
     list_passes *p = &d->r->passes;
@@ -86,6 +104,7 @@ static mns_status sort_and_upload(draw *d, mns_error *error)
     mns_status status = list_order_make(&d->r->order, d->field, d->plan, error);
     mark(d, MNS_PHASE_SORT);
     if (!status) status = upload(d, &p->balls, "balls", d->plan->ball_floats, 0, error);
+    if (!status) status = count_backwards(d, error);
     if (!status && d->plan->features & FEATURE_CORE_RADII) status = upload(d, &p->cores, "core radii", 1, 2, error);
     if (!status && d->plan->features & FEATURE_COLORS) status = upload(d, &p->colors, "colours", 1, 3, error);
     mark(d, MNS_PHASE_UPLOAD);
@@ -112,27 +131,34 @@ static void set_view(draw *d, const double jitter[2])
     send(d, &d->r->passes.far_block, far_block, sizeof far_block);
 }
 
+/* A program that only some frames come to need: compiled when one does. */
+static mns_status late_program(draw *d, plan_shader which, mns_error *error)
+{
+    char defines[PLAN_DEFINES];
+    gl_shader shader = {.defines = defines};
+    plan_shader_files(which, &shader.vertex, &shader.fragment, &shader.compute);
+    plan_shader_defines(d->plan, which, defines);
+    return gl_program_get(&d->r->device, &d->r->programs, &shader, &d->program[which], error);
+}
+
 /* Pixels that the cast left: their balls' low words and the doubles' program are made when the first one needs them. */
 static mns_status resolve(draw *d, list_counts *counts, mns_error *error)
 {
     gl_device *device = &d->r->device;
     list_passes *p = &d->r->passes;
-    char defines[PLAN_DEFINES];
-    gl_shader shader = {.defines = defines};
-    plan_shader_files(SHADER_RESOLVE, &shader.vertex, &shader.fragment, &shader.compute);
-    plan_shader_defines(d->plan, SHADER_RESOLVE, defines);
-    mns_status status = gl_program_get(device, &d->r->programs, &shader, &d->program[SHADER_RESOLVE], error);
+    mns_status status = late_program(d, SHADER_RESOLVE, error);
     if (!status) status = gl_buffer_reserve(device, &p->view_wide, "view", sizeof d->wide, 0, error);
     if (status) return status;
     send(d, &p->view_wide, d->wide, sizeof d->wide);
     if (!d->r->last.low) {
+        mark(d, MNS_PHASE_CAST);
         status = upload(d, &p->balls_low, "balls", d->plan->ball_floats, 1, error);
         if (status) return status;
         d->r->last.low = true;
         mark(d, MNS_PHASE_UPLOAD);
     }
     const GLuint planes[3] = {d->frame->t, d->frame->normal, d->frame->color};
-    list_resolve(p, device, d->program[SHADER_RESOLVE], planes, counts->redo, counts);
+    list_resolve(p, device, d->plan, d->program[SHADER_RESOLVE], planes, counts->redo, counts);
     return MNS_OK;
 }
 
@@ -161,11 +187,33 @@ static mns_status draw_halves(draw *d, list_region region, mns_error *error)
 
 static void add_counts(mns_stats *stats, const list_counts *counts)
 {
-    stats->fallbacks.window_refilled += counts->refilled;
     stats->fallbacks.active_overflow += counts->active;
     stats->fallbacks.root_cap += counts->steps;
     stats->fallbacks.undecided_float += counts->undecided_float;
     stats->pixels_undecided += counts->undecided;
+}
+
+static mns_status sort_lists(draw *d, mns_error *error)
+{
+    mns_status status = late_program(d, SHADER_ORDER, error);
+    if (status) return status;
+    d->stats->fallbacks.lists_sorted++;
+    list_sort_nodes(&d->r->passes, &d->r->device, d->program[SHADER_ORDER]);
+    return MNS_OK;
+}
+
+/* Casts a region's lists. Where they turn out not to be in order they are sorted and cast again; from then on they are sorted first. */
+static mns_status cast(draw *d, list_region region, list_counts *counts, mns_error *error)
+{
+    mns_status status = d->r->disordered ? sort_lists(d, error) : MNS_OK;
+    if (status) return status;
+    list_cast(&d->r->passes, &d->r->device, d->plan, d->program, d->frame->planes_target, region, counts);
+    if (!counts->disorder) return MNS_OK;
+    d->r->disordered = true;
+    status = sort_lists(d, error);
+    if (status) return status;
+    list_cast(&d->r->passes, &d->r->device, d->plan, d->program, d->frame->planes_target, region, counts);
+    return MNS_OK;
 }
 
 /* Gathers and casts a region of the frame. */
@@ -178,14 +226,14 @@ static mns_status draw_region(draw *d, list_region region, mns_error *error)
     if (nodes > p->node_capacity) {
         if (nodes > plan->pool_most) return draw_halves(d, region, error);
         d->stats->fallbacks.pool_grown++;
-        mns_status status = gl_buffer_reserve(device, &p->nodes, "node pool", nodes * 8, plan->pool_most * 8, error);
+        mns_status status = gl_buffer_reserve(device, &p->nodes, "node pool", nodes * LIST_NODE, plan->pool_most * LIST_NODE, error);
         if (status) return status;
-        p->node_capacity = p->nodes.size / 8 < plan->pool_most ? p->nodes.size / 8 : plan->pool_most;
+        p->node_capacity = p->nodes.size / LIST_NODE < plan->pool_most ? p->nodes.size / LIST_NODE : plan->pool_most;
         nodes = list_gather(p, device, plan, &d->r->order, d->program, region);
     }
     mark(d, MNS_PHASE_GATHER);
     d->stats->tiles++;
-    d->stats->list_nodes += nodes;
+    d->stats->list_nodes += nodes - 1;
     if (plan->options.measure) {
         double begin = clock_ms();
         if (!list_lengths_add(&d->lengths, p, device, region, nodes))
@@ -195,8 +243,8 @@ static mns_status draw_region(draw *d, list_region region, mns_error *error)
     }
     if (plan->features & FEATURE_SHUFFLE) list_shuffle(p, device, plan, d->program);
     list_counts counts;
-    list_cast(p, device, plan, d->program, d->frame->planes_target, region, &counts);
-    mns_status status = counts.redo ? resolve(d, &counts, error) : MNS_OK;
+    mns_status status = cast(d, region, &counts, error);
+    if (!status && counts.redo) status = resolve(d, &counts, error);
     mark(d, MNS_PHASE_CAST);
     add_counts(d->stats, &counts);
     return status;
@@ -286,7 +334,8 @@ static uint64_t count_buffers(const mns_renderer *r)
 {
     const list_passes *p = &r->passes;
     const gl_buffer *all[] = {&p->balls, &p->balls_low, &p->cores,     &p->colors,    &p->nodes,  &p->counter,
-                              &p->redo,  &p->view,      &p->view_wide, &p->far_block, &r->shade};
+                              &p->redo,  &p->view,      &p->view_wide, &p->far_block, &r->shade,
+                              &p->backwards};
     uint64_t count = 0;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) count += all[i]->id != 0;
     return count;

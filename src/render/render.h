@@ -23,6 +23,7 @@ struct mns_renderer {
     list_order order;
     gl_buffer shade;
     render_last last;
+    bool disordered; /* lists have come out of order on this driver: sort them before they are cast */
 };
 
 struct mns_frame {

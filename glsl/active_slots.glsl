@@ -1,0 +1,166 @@
+// The active set (the balls whose chord holds the current piece of the ray) in a few slots, fed from the pixel's list.
+//
+// The list is ordered by effective distance, |p - e| - R, before which no ball of its rest can begin (the "safe zone" of Szecsi &
+// Illes 2012, section 6): a ball is read only when the walk comes near, and a walk that hits leaves the rest unread. The slots are
+// in no order; what has ended makes room. A list out of order is told by stream_disorder, more balls at once than slots by
+// slot_overflow.
+
+float slot_a[SLOTS];
+float slot_b[SLOTS];
+#ifdef RADII
+float slot_shrink[SLOTS];
+#endif
+#ifdef STRENGTHS
+float slot_q[SLOTS];
+#endif
+uint slot_ball[SLOTS];
+int slot_count;      // slots in use; those whose ball has ended are free
+int slot_free;       // one of the free, or slot_count
+bool slot_overflow;
+float active_from;   // where the current piece begins
+
+uint stream_node;    // the node read last; its ball is not in a slot yet
+uint stream_next;    // the node after it
+uint stream_ball;
+Chord stream_chord;
+float stream_near;   // no ball from stream_node on begins before this
+bool stream_disorder;
+
+#define EACH_ACTIVE(j) for (int j = 0; j < slot_count; j++) if (slot_a[j] <= active_from && slot_b[j] > active_from)
+
+Chord active_chord(int j)
+{
+    Chord chord;
+    chord.a = slot_a[j];
+    chord.b = slot_b[j];
+#ifdef RADII
+    chord.shrink = slot_shrink[j];
+#else
+    chord.shrink = level.z;
+#endif
+#ifdef STRENGTHS
+    chord.strength = slot_q[j];
+#else
+    chord.strength = 1.0;
+#endif
+    return chord;
+}
+
+uint active_ball(int j)
+{
+    return slot_ball[j];
+}
+
+// The first separator after `stop` on this chord: its begin, its end, and for the splines its middle.
+float slot_next(Chord chord, float stop)
+{
+#ifdef MIDDLES
+    float middle = 0.5 * (chord.a + chord.b);
+    float rest = middle > stop ? middle : chord.b;
+#else
+    float rest = chord.b;
+#endif
+    float next = chord.a > stop ? chord.a : rest;
+    return next > stop ? next : FAR_AWAY;
+}
+
+// Before the first piece. The first slot is written so that no compiler has to suspect the arrays of being read unwritten.
+void slots_clear()
+{
+    slot_count = 0;
+    slot_free = 0;
+    slot_overflow = false;
+    active_from = 0.0;
+    stream_disorder = false;
+    stream_ball = 0u;
+    stream_next = NO_NODE;
+    slot_a[0] = 0.0;
+    slot_b[0] = 0.0;
+#ifdef RADII
+    slot_shrink[0] = 0.0;
+#endif
+#ifdef STRENGTHS
+    slot_q[0] = 0.0;
+#endif
+    slot_ball[0] = 0u;
+}
+
+// Effective distance of a ball in the ray's parameter, less what rounding may have added, from its chord: the square of the way from
+// the ray's start to the centre is m^2 + R^2 - Q^2.
+float stream_distance(Chord chord, float radius)
+{
+    float middle = 0.5 * (chord.a + chord.b), half_length = 0.5 * (chord.b - chord.a);
+    float lateral = max((radius - half_length) * (radius + half_length), 0.0);
+#ifdef FAR
+    // From the eye, which is the way `before` behind the ray's start; less that way, without cancellation.
+    float before = depth.y + view_excess, along = before + middle;
+    float distance = middle + lateral / (sqrt(along * along + lateral) + along);
+#else
+    float distance = sqrt(middle * middle + lateral);
+#endif
+    return distance - radius - 8.0e-6 * (abs(middle) + radius + view_reach);
+}
+
+// Looks at the ball of `node`.
+void stream_read(uint node)
+{
+    stream_node = node;
+    uvec4 link = list_node(node);
+    bool ends = node == NO_NODE;
+    if (!ends && link.x < stream_ball) stream_disorder = true;
+    stream_ball = link.x;
+    stream_next = ends ? NO_NODE : link.y;
+    stream_chord.a = uintBitsToFloat(link.z);
+    stream_chord.b = uintBitsToFloat(link.w);
+#if defined(RADII) || defined(STRENGTHS)
+    Ball ball = ball_get(link.x);
+    float radius = ball.radius;
+    stream_chord.strength = ball.strength;
+#else
+    float radius = level.y;
+    stream_chord.strength = 1.0;
+#endif
+#ifdef RADII
+    stream_chord.shrink = 1.0 / (radius * radius);
+#else
+    stream_chord.shrink = level.z;
+#endif
+    stream_near = ends ? FAR_AWAY : stream_distance(stream_chord, radius);
+}
+
+// Puts the ball that was read into a slot.
+void stream_take()
+{
+    slot_a[slot_free] = stream_chord.a;
+    slot_b[slot_free] = stream_chord.b;
+#ifdef RADII
+    slot_shrink[slot_free] = stream_chord.shrink;
+#endif
+#ifdef STRENGTHS
+    slot_q[slot_free] = stream_chord.strength;
+#endif
+    slot_ball[slot_free] = stream_ball;
+    slot_count = max(slot_count, slot_free + 1);
+    slot_free = slot_count;
+}
+
+// Takes in every ball that may begin before `stop`, lowering it to where one does.
+void stream_fill(float s, inout float stop)
+{
+    while (stream_near <= stop && stream_near < FAR_AWAY && !slot_overflow) {
+        if (stream_chord.b > s && stream_chord.a < stream_chord.b) {
+            if (slot_free == SLOTS) {
+                // Room may have been made in a slot that was passed over.
+                for (int j = 0; j < SLOTS; j++)
+                    if (slot_b[j] <= s) slot_free = j;
+                slot_overflow = slot_free == SLOTS;
+            }
+            if (!slot_overflow) {
+                stream_take();
+                stop = min(stop, slot_next(stream_chord, s));
+            }
+        }
+        stream_read(stream_next);
+    }
+}
+

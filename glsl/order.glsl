@@ -1,0 +1,27 @@
+// Puts every pixel's list in order of effective distance, which is the order of the balls: for drivers that run fragments out of
+// the order in which they were drawn, which GL allows.
+#define LISTS_ACCESS
+#include "lists.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+bool list_before(uint node_a, uint node_b)
+{
+    return list_nodes[node_a].x < list_nodes[node_b].x;
+}
+#include "list_sort.glsl"
+
+void main()
+{
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 size = imageSize(list_heads);
+    if (at.x >= size.x || at.y >= size.y) return;
+    uint head = imageLoad(list_heads, at).x;
+    bool ordered = true;
+    for (uint node = head; node != NO_NODE;) {
+        uvec4 link = list_nodes[node];
+        if (link.y != NO_NODE && list_nodes[link.y].x < link.x) ordered = false;
+        node = link.y;
+    }
+    if (!ordered) imageStore(list_heads, at, uvec4(list_sort(head)));
+}
