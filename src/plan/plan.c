@@ -40,6 +40,20 @@ static mns_status check_options(const mns_options *options, mns_error *error)
     return MNS_OK;
 }
 
+/* What a caller leaves at zero is the least. */
+static mns_limits resolve_limits(const mns_limits *limits)
+{
+    if (!limits) return least_limits;
+    mns_limits l = *limits;
+    if (!l.max_storage_block) l.max_storage_block = least_limits.max_storage_block;
+    if (l.max_texture_size <= 0) l.max_texture_size = least_limits.max_texture_size;
+    if (l.max_texture_buffer <= 0) l.max_texture_buffer = least_limits.max_texture_buffer;
+    for (int i = 0; i < 2; i++)
+        if (l.max_viewport[i] <= 0) l.max_viewport[i] = least_limits.max_viewport[i];
+    if (!(l.max_point_size > 0)) l.max_point_size = least_limits.max_point_size;
+    return l;
+}
+
 static void resolve_options(const mns_options *options, mns_plan *plan)
 {
     mns_options *o = &plan->options;
@@ -214,7 +228,7 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
     if (!field || !result) return status_fail(error, MNS_ERROR_USAGE, "plan: the field is NULL");
     mns_plan *plan = calloc(1, sizeof *plan);
     if (!plan) return status_no_memory(error, "while planning a frame");
-    plan->limits = limits ? *limits : least_limits;
+    plan->limits = resolve_limits(limits);
     mns_status status = options ? check_options(options, error) : MNS_OK;
     if (!status) status = mns_view_resolve(view, field, &plan->view, error);
     if (status) goto fail;
