@@ -1,0 +1,295 @@
+/* What each scene needs, and no more: the exact features and passes of a table of scenes, and why the rest is
+ * left out. */
+#include "support/scenes.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define POLY2     MNS_KERNEL_POLY2
+#define POLY3     MNS_KERNEL_POLY3
+#define CUBIC     ((unsigned)MNS_SOLVER_CUBIC << 3)
+#define MONOMIAL  ((unsigned)MNS_SOLVER_CUBIC_MONOMIAL << 3)
+#define CORE      FEATURE_CORE
+#define RADII     FEATURE_RADII
+#define STRENGTHS FEATURE_STRENGTHS
+#define QUADS     FEATURE_QUADS
+#define POINTS    FEATURE_POINTS
+#define SPECULAR  FEATURE_SPECULAR
+#define IN_BALL   FEATURE_EYE_IN_BALL
+#define LEAST     (QUADS | SPECULAR)                                       /* of a driver with 4.3's minima */
+#define SOFTWARE  (POINTS | FEATURE_CLIP_ZERO | FEATURE_TEXELS | SPECULAR) /* of llvmpipe */
+
+#define PLAIN_PASSES "sort upload gather cast resolve shade"
+#define CORE_PASSES  "sort upload core_depth gather cast resolve shade"
+
+static const scene scenes[] = {
+    {"defaults, the least driver", .desc = {SCENE_UNIT}, .features = POLY3 | CORE | LEAST,
+     .passes = CORE_PASSES, .left_out = "points for small balls: this driver's points are too small"},
+    {"least driver, what it cannot read", .desc = {SCENE_UNIT}, .features = POLY3 | CORE | LEAST,
+     .passes = CORE_PASSES, .left_out = "reading by texels: this driver's buffer textures are too small"},
+    {"llvmpipe", .desc = {SCENE_UNIT}, .limits = &scene_llvmpipe, .features = POLY3 | CORE | SOFTWARE | QUADS,
+     .passes = CORE_PASSES, .left_out = "a radius a ball: all are equal"},
+    {"a small frame: points alone", .desc = {SCENE_UNIT}, .limits = &scene_llvmpipe,
+     .view = {.width = 64, .height = 48}, .features = POLY3 | CORE | SOFTWARE, .passes = CORE_PASSES,
+     .left_out = "rectangles for large balls: every ball fits a point"},
+    {"many small balls: points alone", .generator = "scattered:1000", .limits = &scene_llvmpipe,
+     .features = POLY3 | CORE | SOFTWARE, .passes = CORE_PASSES},
+    {"mixed sizes", .generator = "mixed:1000", .limits = &scene_llvmpipe,
+     .features = POLY3 | RADII | CORE | SOFTWARE | QUADS, .passes = CORE_PASSES},
+    {"poly2", .desc = {SCENE_UNIT, .kernel = POLY2}, .features = POLY2 | CORE | LEAST, .passes = CORE_PASSES},
+    {"poly4, cubic", .desc = {SCENE_UNIT, .kernel = MNS_KERNEL_POLY4},
+     .options = {.solver = MNS_SOLVER_CUBIC}, .features = MNS_KERNEL_POLY4 | CUBIC | CORE | LEAST,
+     .passes = CORE_PASSES, .left_out = "certification: the solver is a model of the field"},
+    {"wyvill, cubic-monomial", .desc = {SCENE_UNIT, .kernel = MNS_KERNEL_WYVILL},
+     .options = {.solver = MNS_SOLVER_CUBIC_MONOMIAL},
+     .features = MNS_KERNEL_WYVILL | MONOMIAL | CORE | LEAST, .passes = CORE_PASSES,
+     .left_out = "certification: the solver is a model of the field"},
+    {"perlin", .desc = {SCENE_UNIT, .kernel = MNS_KERNEL_PERLIN},
+     .features = MNS_KERNEL_PERLIN | CORE | LEAST, .passes = CORE_PASSES},
+    {"wendland", .desc = {SCENE_UNIT, .kernel = MNS_KERNEL_WENDLAND},
+     .features = MNS_KERNEL_WENDLAND | CORE | LEAST, .passes = CORE_PASSES},
+    {"radii", .desc = {SCENE_ROW, .radius = {.data = scene_sizes}}, .features = POLY3 | RADII | CORE | LEAST,
+     .passes = CORE_PASSES, .left_out = "a strength a ball: all are 1"},
+    {"radii, but all equal", .desc = {SCENE_ROW, .radius = {.data = scene_equal}},
+     .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES, .left_out = "a radius a ball: all are equal"},
+    {"strengths: a core radius each", .desc = {SCENE_UNIT, .strength = {.data = scene_gains}},
+     .features = POLY3 | STRENGTHS | CORE | FEATURE_CORE_RADII | LEAST, .passes = CORE_PASSES},
+    {"strengths, but all 1", .desc = {SCENE_UNIT, .strength = {.data = scene_equal}},
+     .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES, .left_out = "a strength a ball: all are 1"},
+    {"radii and strengths",
+     .desc = {SCENE_ROW, .radius = {.data = scene_sizes}, .strength = {.data = scene_gains}},
+     .features = POLY3 | RADII | STRENGTHS | CORE | FEATURE_CORE_RADII | LEAST, .passes = CORE_PASSES},
+    {"a negative strength", .desc = {SCENE_UNIT, .strength = {.data = scene_carving}},
+     .features = POLY3 | STRENGTHS | LEAST, .passes = PLAIN_PASSES,
+     .left_out = "core depth: a negative strength could carve a core"},
+    {"strengths that alone never reach L", .desc = {SCENE_UNIT, .strength = {.data = scene_weak}},
+     .features = POLY3 | STRENGTHS | LEAST, .passes = PLAIN_PASSES,
+     .left_out = "core depth: no ball alone reaches L"},
+    {"L at the kernel's peak", .desc = {SCENE_UNIT, .iso = 1}, .features = POLY3 | LEAST,
+     .passes = PLAIN_PASSES, .left_out = "core depth: no ball alone reaches L"},
+    {"L just below it", .desc = {SCENE_UNIT, .iso = 0.999}, .features = POLY3 | CORE | LEAST,
+     .passes = CORE_PASSES},
+    {"the eye in a ball, outside the surface", .desc = {SCENE_UNIT}, SCENE_EYE(0, 0, 0.9),
+     .features = POLY3 | IN_BALL | CORE | LEAST, .passes = CORE_PASSES,
+     .left_out = "the way out of the surface: f(eye) < L"},
+    {"the eye in the box, outside every ball", .desc = {SCENE_UNIT}, SCENE_EYE(0.5, 0.95, 0.95),
+     .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES,
+     .left_out = "rays that start inside a ball: the eye is outside every effective sphere"},
+    {"the eye inside the surface", .desc = {SCENE_UNIT}, SCENE_EYE(0, 0, 0.1),
+     .features = POLY3 | IN_BALL | FEATURE_EYE_INSIDE | LEAST, .passes = PLAIN_PASSES,
+     .left_out = "core depth: f(eye) >= L: the way out may lie behind a core"},
+    {"the eye at 30 radii", .desc = {SCENE_UNIT}, SCENE_EYE(0, 0, 31), .features = POLY3 | CORE | LEAST,
+     .passes = CORE_PASSES,
+     .left_out = "rays that begin at the box: the eye is within 30 radii of the field's box"},
+    {"the eye beyond 30 radii", .desc = {SCENE_UNIT}, SCENE_EYE(0, 0, 31.01),
+     .features = POLY3 | FEATURE_FAR | CORE | LEAST, .passes = CORE_PASSES},
+    {"30 of the largest radii", .desc = {SCENE_ROW, .radius = {.data = scene_sizes}}, SCENE_EYE(0, 0, 46),
+     .features = POLY3 | RADII | CORE | LEAST, .passes = CORE_PASSES},
+    {"a pool that buffer textures hold", .desc = {SCENE_UNIT}, .options = {.max_pool_nodes = 65536},
+     .features = POLY3 | CORE | LEAST | FEATURE_TEXELS, .passes = CORE_PASSES},
+    {"a pool one node larger", .desc = {SCENE_UNIT}, .options = {.max_pool_nodes = 65537},
+     .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES},
+    {"coloured by numbers", .desc = {SCENE_UNIT}, .look = {.color_by = "heat"},
+     .features = POLY3 | CORE | LEAST | FEATURE_COLORS, .passes = CORE_PASSES},
+    {"coloured by labels", .generator = "molecule:50", .look = {.color_by = "element"},
+     .limits = &scene_llvmpipe,
+     .features = POLY3 | RADII | CORE | SOFTWARE | QUADS | FEATURE_COLORS | FEATURE_LABELS,
+     .passes = CORE_PASSES},
+    {"columns that nobody asks for", .generator = "molecule:50", .limits = &scene_llvmpipe,
+     .features = POLY3 | RADII | CORE | SOFTWARE | QUADS, .passes = CORE_PASSES,
+     .left_out = "colours of balls: one colour for all"},
+    {"cel", .desc = {SCENE_UNIT}, .look = {.shading = MNS_SHADING_CEL},
+     .features = POLY3 | CORE | LEAST | FEATURE_CEL, .passes = CORE_PASSES},
+    {"a directional light", .desc = {SCENE_UNIT}, .look = {.light = MNS_LIGHT_DIRECTIONAL},
+     .features = POLY3 | CORE | LEAST | FEATURE_DIRECTIONAL, .passes = CORE_PASSES},
+    {"no specular", .desc = {SCENE_UNIT}, .look = {.set = MNS_LOOK_SPECULAR},
+     .features = POLY3 | CORE | QUADS, .passes = CORE_PASSES, .left_out = "specular: its strength is 0"},
+    {"samples", .desc = {SCENE_UNIT}, .options = {.samples = 4},
+     .features = POLY3 | CORE | LEAST | FEATURE_SAMPLES, .passes = CORE_PASSES},
+    {"one sample", .desc = {SCENE_UNIT}, .options = {.samples = 1}, .features = POLY3 | CORE | LEAST,
+     .passes = CORE_PASSES, .left_out = "samples beside the centre: one sample a pixel"},
+    {"the paper's gather", .desc = {SCENE_UNIT}, .options = {.gather = MNS_GATHER_PAPER},
+     .features = POLY3 | CORE | LEAST | FEATURE_PAPER, .passes = CORE_PASSES},
+    {"shuffled lists", .desc = {SCENE_UNIT}, .options = {.shuffle = 1},
+     .features = POLY3 | CORE | LEAST | FEATURE_SHUFFLE,
+     .passes = "sort upload core_depth gather shuffle cast resolve shade"},
+    {"no balls", .features = POLY3 | LEAST, .passes = PLAIN_PASSES,
+     .left_out = "core depth: there are no balls"},
+    {"one ball", .desc = {.count = 1, .position = {.data = scene_row}}, .limits = &scene_llvmpipe,
+     .features = POLY3 | CORE | SOFTWARE | QUADS, .passes = CORE_PASSES},
+    {"a host", .desc = {SCENE_UNIT}, .host = true, .features = POLY3 | CORE | LEAST | FEATURE_HOST,
+     .passes = "sort upload host_depth core_depth gather cast resolve shade host_draw"},
+    {"a host, no cores", .desc = {SCENE_UNIT, .iso = 2}, .host = true,
+     .features = POLY3 | LEAST | FEATURE_HOST,
+     .passes = "sort upload host_depth gather cast resolve shade host_draw"},
+    {"much at once",
+     .desc = {SCENE_ROW, .radius = {.data = scene_sizes}, .strength = {.data = scene_gains}, .kernel = POLY2},
+     SCENE_EYE(0, 0, 99),
+     .look = {.shading = MNS_SHADING_CEL, .light = MNS_LIGHT_DIRECTIONAL, .color_by = "heat"},
+     .options = {.solver = MNS_SOLVER_CUBIC, .gather = MNS_GATHER_PAPER, .samples = 2, .shuffle = 5},
+     .limits = &scene_llvmpipe, .host = true,
+     .features = POLY2 | CUBIC | RADII | STRENGTHS | CORE | FEATURE_CORE_RADII | FEATURE_PAPER | FEATURE_FAR |
+                 FEATURE_HOST | FEATURE_SHUFFLE | FEATURE_COLORS | FEATURE_CEL | FEATURE_DIRECTIONAL |
+                 FEATURE_SAMPLES | SOFTWARE,
+     .passes = "sort upload host_depth core_depth gather shuffle cast resolve shade host_draw"},
+};
+
+static void expect_passes(const scene *s, const mns_plan *plan)
+{
+    char passes[256] = "";
+    size_t count, used = 0;
+    const char *const *pass = mns_plan_passes(plan, &count);
+    for (size_t i = 0; i < count; i++)
+        used += (size_t)snprintf(passes + used, sizeof passes - used, "%s%s", i ? " " : "", pass[i]);
+    if (strcmp(passes, s->passes) != 0) fail_msg("%s: passes %s; expected %s", s->name, passes, s->passes);
+}
+
+static bool is_left_out(const mns_plan *plan, const char *part)
+{
+    size_t count;
+    const mns_left_out *left = mns_plan_left_out(plan, &count);
+    for (size_t i = 0; i < count; i++)
+        if (!strcmp(left[i].part, part)) return true;
+    return false;
+}
+
+static void expect_reason(const scene *s, const mns_plan *plan)
+{
+    size_t count;
+    const mns_left_out *left = mns_plan_left_out(plan, &count);
+    for (size_t i = 0; i < count && s->left_out; i++) {
+        char line[200];
+        snprintf(line, sizeof line, "%s: %s", left[i].part, left[i].reason);
+        if (!strcmp(line, s->left_out)) return;
+    }
+    if (s->left_out) fail_msg("%s: not said: %s", s->name, s->left_out);
+}
+
+static void each_scene_has_its_features_and_passes(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        const scene *s = &scenes[i];
+        mns_field *field = scene_field(s);
+        mns_plan *plan = scene_plan(s, field);
+        uint64_t got = mns_plan_features(plan), more = got & ~s->features, less = s->features & ~got;
+        if (more || less)
+            fail_msg("%s: features 0x%llx too many, 0x%llx too few\n%s", s->name, (unsigned long long)more,
+                     (unsigned long long)less, mns_plan_text(plan));
+        expect_passes(s, plan);
+        expect_reason(s, plan);
+        mns_plan_destroy(plan);
+        mns_field_destroy(field);
+    }
+}
+
+/* A part is there or is left out with a reason, never both, never neither. */
+static void what_is_not_there_is_left_out(void **state)
+{
+    (void)state;
+    static const struct {
+        uint64_t feature;
+        const char *part;
+    } parts[] = {
+        {FEATURE_RADII, "a radius a ball"},
+        {FEATURE_STRENGTHS, "a strength a ball"},
+        {FEATURE_CORE, "core depth"},
+        {FEATURE_POINTS, "points for small balls"},
+        {FEATURE_QUADS, "rectangles for large balls"},
+        {FEATURE_EYE_IN_BALL, "rays that start inside a ball"},
+        {FEATURE_EYE_INSIDE, "the way out of the surface"},
+        {FEATURE_FAR, "rays that begin at the box"},
+        {FEATURE_HOST, "a host's depth"},
+        {FEATURE_COLORS, "colours of balls"},
+        {FEATURE_CEL, "cel bands"},
+        {FEATURE_DIRECTIONAL, "a light of its own"},
+        {FEATURE_SPECULAR, "specular"},
+        {FEATURE_SAMPLES, "samples beside the centre"},
+        {FEATURE_TEXELS, "reading by texels"},
+    };
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        mns_field *field = scene_field(&scenes[i]);
+        mns_plan *plan = scene_plan(&scenes[i], field);
+        for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
+            if (is_left_out(plan, parts[k].part) == !!(plan->features & parts[k].feature))
+                fail_msg("%s: %s", scenes[i].name, parts[k].part);
+        assert_true(is_left_out(plan, "certification") == !!(plan->features & FEATURE_SOLVER));
+        assert_true(is_left_out(plan, "FBVH"));
+        mns_plan_destroy(plan);
+        mns_field_destroy(field);
+    }
+}
+
+static void the_text_tells_all_of_the_plan(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        mns_field *field = scene_field(&scenes[i]);
+        mns_plan *plan = scene_plan(&scenes[i], field);
+        const char *text = mns_plan_text(plan);
+        char line[256];
+        size_t count;
+        const mns_left_out *left = mns_plan_left_out(plan, &count);
+        for (size_t k = 0; k < count; k++) {
+            snprintf(line, sizeof line, "\n  %s: %s\n", left[k].part, left[k].reason);
+            assert_non_null(strstr(text, line));
+        }
+        snprintf(line, sizeof line, "\npasses: %s\n", scenes[i].passes);
+        assert_non_null(strstr(text, line));
+        snprintf(line, sizeof line, "\nfeatures 0x%llx:", (unsigned long long)scenes[i].features);
+        assert_non_null(strstr(text, line));
+        snprintf(line, sizeof line, "kernel %s, L ", mns_kernel_name(field->kernel));
+        assert_non_null(strstr(text, line));
+        mns_plan_destroy(plan);
+        mns_field_destroy(field);
+    }
+}
+
+/* The names of a feature mask: those of the features that are there. */
+static void the_text_names_the_features(void **state)
+{
+    (void)state;
+    const scene *s = &scenes[sizeof scenes / sizeof *scenes - 1];
+    mns_field *field = scene_field(s);
+    mns_plan *plan = scene_plan(s, field);
+    assert_non_null(strstr(mns_plan_text(plan),
+                           ": radii strengths core core_radii paper points far host shuffle colors cel "
+                           "directional specular samples clip_zero texels\n"));
+    mns_plan_destroy(plan);
+    mns_field_destroy(field);
+}
+
+static void the_same_inputs_give_the_same_plan(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        mns_field *field = scene_field(&scenes[i]), *again = scene_field(&scenes[i]);
+        mns_plan *a = scene_plan(&scenes[i], field), *b = scene_plan(&scenes[i], field),
+                 *c = scene_plan(&scenes[i], again);
+        assert_string_equal(mns_plan_text(a), mns_plan_text(b));
+        assert_string_equal(mns_plan_text(a), mns_plan_text(c));
+        assert_true(a->pool_nodes == b->pool_nodes && a->pool_most == b->pool_most &&
+                    a->features == c->features);
+        mns_plan_destroy(a);
+        mns_plan_destroy(b);
+        mns_plan_destroy(c);
+        mns_field_destroy(field);
+        mns_field_destroy(again);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_scene_has_its_features_and_passes),
+        cmocka_unit_test(what_is_not_there_is_left_out),
+        cmocka_unit_test(the_text_tells_all_of_the_plan),
+        cmocka_unit_test(the_text_names_the_features),
+        cmocka_unit_test(the_same_inputs_give_the_same_plan),
+    };
+    return cmocka_run_group_tests_name("plan", tests, NULL, NULL);
+}
