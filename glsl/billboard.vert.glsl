@@ -16,7 +16,7 @@ flat out vec4 sphere;  // centre relative to o, radius
 #ifndef CORE_SPHERE
 flat out uint ball;
 #endif
-layout(location = 0) uniform uint first_ball;
+layout(location = 0) uniform uint last_ball; // rectangles are drawn farthest first for gather
 
 // Bounds of x / z over a circle of `radius` around (x, z), z > radius: the tangents from the eye.
 vec2 billboard_span(float x, float z, float radius)
@@ -80,7 +80,7 @@ void main()
 #ifdef POINTS
     ball = uint(gl_VertexID);
 #else
-    ball = first_ball + uint(gl_InstanceID);
+    ball = last_ball - uint(gl_InstanceID);
 #endif
 #endif
 }

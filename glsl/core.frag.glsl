@@ -18,6 +18,7 @@ void main()
     float radius = sphere.w - 2.0e-6 * (abs(middle) + view_reach);
     float square = (radius - away) * (radius + away);
     if (!(square > 0.0)) discard;
+    if (middle + sqrt(square) <= 0.0) discard; // behind the eye
     float entry = middle - sqrt(square);
 #ifdef FAR
     entry += view_excess;

@@ -4,6 +4,7 @@
 #include "lists.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(location = 1) uniform ivec4 region; // lower left corner, size: other lists may be a former region's
 
 bool list_before(uint node_a, uint node_b)
 {
@@ -13,9 +14,8 @@ bool list_before(uint node_a, uint node_b)
 
 void main()
 {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    ivec2 size = imageSize(list_heads);
-    if (at.x >= size.x || at.y >= size.y) return;
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy) + region.xy;
+    if (any(greaterThanEqual(at, region.xy + region.zw))) return;
     uint head = imageLoad(list_heads, at).x;
     bool ordered = true;
     for (uint node = head; node != NO_NODE;) {

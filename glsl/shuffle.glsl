@@ -4,6 +4,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(location = 0) uniform uint seed;
+layout(location = 1) uniform ivec4 region; // lower left corner, size
 
 uint shuffle_hash(uint x)
 {
@@ -16,9 +17,8 @@ uint shuffle_hash(uint x)
 
 void main()
 {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    ivec2 size = imageSize(list_heads);
-    if (at.x >= size.x || at.y >= size.y) return;
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy) + region.xy;
+    if (any(greaterThanEqual(at, region.xy + region.zw))) return;
     uint state = shuffle_hash(seed ^ uint(at.x) * 0x9e3779b9u ^ uint(at.y) * 0x85ebca6bu);
     // Take the nodes off one by one and put each at a random place of what has been put so far.
     uint head = NO_NODE, count = 0u;

@@ -29,6 +29,8 @@ void list_pack_high(const list_order *order, const mns_field *field, const mns_p
         if (radii) to[3] = (float)field->p.radius[ball->index];
         if (strengths) to[stride - 1] = (float)field->p.strength[ball->index];
     }
+    for (size_t i = 0; i < order->quads; i++)
+        memcpy(out + (order->count + i) * stride, out + (order->quads - 1 - i) * stride, stride * sizeof *out);
 }
 
 void list_pack_low(const list_order *order, const mns_field *field, const mns_plan *plan, float *out)

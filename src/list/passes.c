@@ -2,7 +2,7 @@
 
 #include <stddef.h>
 
-enum { UNIFORM_FIRST_BALL = 0, UNIFORM_CAPACITY = 1, UNIFORM_SEED = 0 };
+enum { UNIFORM_LAST_BALL = 0, UNIFORM_CAPACITY = 1, UNIFORM_SEED = 0, UNIFORM_REGION = 1 };
 
 static void scissor(gl_device *device, const list_passes *p, list_region region)
 {
@@ -60,12 +60,6 @@ static void draw_points(list_passes *p, gl_device *device, const mns_plan *plan,
     gl->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
 }
 
-static void draw_quads(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order)
-{
-    attributes(p, device, plan, 0, true);
-    device->gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)order->quads);
-}
-
 /* Every ball in view as its rectangle or point: for the core pass, then for gather, which counts nodes. */
 static void draw_balls(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order, GLuint quads,
                        GLuint points, bool gather)
@@ -79,9 +73,11 @@ static void draw_balls(list_passes *p, gl_device *device, const mns_plan *plan, 
     }
     if (order->quads) {
         gl->UseProgram(quads);
-        gl->Uniform1ui(UNIFORM_FIRST_BALL, 0);
+        if (gather) gl->Uniform1ui(UNIFORM_LAST_BALL, (GLuint)order->quads - 1);
         if (gather) gl->Uniform1ui(UNIFORM_CAPACITY, (GLuint)p->node_capacity);
-        draw_quads(p, device, plan, order);
+        /* Their copies in reverse follow the balls. */
+        attributes(p, device, plan, gather ? order->count : 0, true);
+        gl->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)order->quads);
     }
     if (some_points && !gather) {
         gl->UseProgram(points);
@@ -158,29 +154,31 @@ size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, cons
     return (size_t)wanted + 1; /* node 0 ends the lists */
 }
 
-/* A compute pass over all lists, a pixel an invocation. */
-static void visit_lists(list_passes *p, gl_device *device)
+/* A compute pass over a region's lists, a pixel an invocation. */
+static void visit_lists(list_passes *p, gl_device *device, list_region region)
 {
     const GladGLContext *gl = &device->gl;
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, p->nodes.id);
     gl->BindImageTexture(0, p->heads, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
-    gl->DispatchCompute((GLuint)(p->width + 7) / 8, (GLuint)(p->height + 7) / 8, 1);
+    gl->Uniform4i(UNIFORM_REGION, region.x, region.y, region.width, region.height);
+    gl->DispatchCompute((GLuint)(region.width + 7) / 8, (GLuint)(region.height + 7) / 8, 1);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                       GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void list_sort_nodes(list_passes *p, gl_device *device, GLuint program)
+void list_sort_nodes(list_passes *p, gl_device *device, GLuint program, list_region region)
 {
     device->gl.UseProgram(program);
-    visit_lists(p, device);
+    visit_lists(p, device, region);
 }
 
-void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT])
+void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],
+                  list_region region)
 {
     const GladGLContext *gl = &device->gl;
     gl->UseProgram(program[SHADER_SHUFFLE]);
     gl->Uniform1ui(UNIFORM_SEED, plan->options.shuffle);
-    visit_lists(p, device);
+    visit_lists(p, device, region);
 }
 
 static void bind_texels(gl_device *device, GLuint *texture, GLenum unit, GLenum format, GLuint buffer)

@@ -44,10 +44,11 @@ void list_core_depth(list_passes *p, gl_device *device, const mns_plan *plan, co
 size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
                    const GLuint program[SHADER_COUNT], list_region region);
 
-/* Puts every list in the order of the balls. */
-void list_sort_nodes(list_passes *p, gl_device *device, GLuint program);
+/* Puts every list of a region in the order of the balls. */
+void list_sort_nodes(list_passes *p, gl_device *device, GLuint program, list_region region);
 
-void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT]);
+void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],
+                  list_region region);
 
 /* Casts a region into `target` (t, normal, color planes) and tells what is left to resolve. */
 void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],

@@ -200,7 +200,7 @@ static void plan_pool(mns_plan *plan, const mns_field *field)
     if (!field->p.count) plan->pool_nodes = 1;
     if (plan->pool_nodes > plan->pool_most) plan->pool_nodes = plan->pool_most;
     size_t texels = (size_t)plan->limits.max_texture_buffer;
-    if (plan->pool_most <= texels && field->p.count * plan->ball_floats <= texels)
+    if (plan->pool_most <= texels && field->p.count * plan->ball_floats * 2 <= texels)
         plan->features |= FEATURE_TEXELS;
     else
         leave_out(plan, "reading by texels", "this driver's buffer textures are too small");
@@ -216,6 +216,7 @@ static mns_status check_limits(const mns_plan *plan, const mns_field *field, mns
         return status_fail(error, MNS_ERROR_UNSUPPORTED, "size %dx%d: this driver draws at most %dx%d", width, height,
                            most_x, most_y);
     size_t most = limits->max_storage_block / (plan->ball_floats * sizeof(float));
+    if (plan->features & FEATURE_QUADS) most /= 2; /* rectangles are kept twice */
     if (field->p.count > most || field->p.count > 0x7fffffff)
         return status_fail(error, MNS_ERROR_UNSUPPORTED, "%zu balls: this driver's storage blocks hold %zu of this field",
                            field->p.count, most);

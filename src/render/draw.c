@@ -62,7 +62,8 @@ static mns_status upload(draw *d, gl_buffer *buffer, const char *what, size_t fl
 {
     gl_device *device = &d->r->device;
     const list_order *order = &d->r->order;
-    size_t size = (order->count ? order->count : 1) * floats * sizeof(float);
+    size_t records = order->count + (which == 0 ? order->quads : 0);
+    size_t size = (records ? records : 1) * floats * sizeof(float);
     void *data;
     do {
         mns_status status = gl_buffer_reserve(device, buffer, what, size, d->plan->limits.max_storage_block, error);
@@ -193,24 +194,24 @@ static void add_counts(mns_stats *stats, const list_counts *counts)
     stats->pixels_undecided += counts->undecided;
 }
 
-static mns_status sort_lists(draw *d, mns_error *error)
+static mns_status sort_lists(draw *d, list_region region, mns_error *error)
 {
     mns_status status = late_program(d, SHADER_ORDER, error);
     if (status) return status;
     d->stats->fallbacks.lists_sorted++;
-    list_sort_nodes(&d->r->passes, &d->r->device, d->program[SHADER_ORDER]);
+    list_sort_nodes(&d->r->passes, &d->r->device, d->program[SHADER_ORDER], region);
     return MNS_OK;
 }
 
 /* Casts a region's lists. Where they turn out not to be in order they are sorted and cast again; from then on they are sorted first. */
 static mns_status cast(draw *d, list_region region, list_counts *counts, mns_error *error)
 {
-    mns_status status = d->r->disordered ? sort_lists(d, error) : MNS_OK;
+    mns_status status = d->r->disordered ? sort_lists(d, region, error) : MNS_OK;
     if (status) return status;
     list_cast(&d->r->passes, &d->r->device, d->plan, d->program, d->frame->planes_target, region, counts);
     if (!counts->disorder) return MNS_OK;
     d->r->disordered = true;
-    status = sort_lists(d, error);
+    status = sort_lists(d, region, error);
     if (status) return status;
     list_cast(&d->r->passes, &d->r->device, d->plan, d->program, d->frame->planes_target, region, counts);
     return MNS_OK;
@@ -241,7 +242,7 @@ static mns_status draw_region(draw *d, list_region region, mns_error *error)
         d->last_mark = clock_ms();
         d->spent += d->last_mark - begin;
     }
-    if (plan->features & FEATURE_SHUFFLE) list_shuffle(p, device, plan, d->program);
+    if (plan->features & FEATURE_SHUFFLE) list_shuffle(p, device, plan, d->program, region);
     list_counts counts;
     mns_status status = cast(d, region, &counts, error);
     if (!status && counts.redo) status = resolve(d, &counts, error);
