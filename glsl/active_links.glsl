@@ -1,73 +1,97 @@
-// The active set kept in the pixel's own linked list, for any number of balls: sorted in place by where the ray enters each ball
-// (ties by ball), the list's first part up to active_past is the active set, and what has ended is unlinked. No array, no limit.
+// The active set read straight from the pixel's list, for any number of balls: no array, no limit, nothing written.
+//
+// The list is ordered by effective distance, before which no ball of its rest can begin. What has been read but has not wholly ended
+// is the stretch [links_first, links_past); the active set is what of it holds the current piece.
 
-uint active_head = NO_NODE;   // first node of the list that is left
-uint active_past = NO_NODE;   // first node not yet active
-REAL active_end = FAR_AWAY;    // least b of the active set
+Ray links_ray = Ray(REAL3(0.0), REAL3(0.0));
+uint links_first = NO_NODE;
+uint links_past = NO_NODE;
+REAL active_from = NUM(0.0);
+int links_work = 0;     // nodes visited, so that no dispatch runs without end
 
-#define EACH_ACTIVE(j) for (uint j = active_head; j != active_past; j = list_nodes[j].y)
-
-Ray links_ray = Ray(REAL3(0.0), REAL3(0.0)); // the ray that the chords are cut from
-
-Chord active_chord(uint node)
+// The node's chord in this precision; false where the ray misses the ball.
+bool links_chord(uvec4 link, out Chord chord)
 {
+#ifdef MNS_DOUBLE
+    return chord_cut(links_ray, ball_get(link.x), chord);
+#else
+    chord.a = uintBitsToFloat(link.z);
+    chord.b = uintBitsToFloat(link.w);
+    chord.shrink = level.z;
+    chord.strength = 1.0;
+#if defined(RADII) || defined(STRENGTHS)
+    Ball ball = ball_get(link.x);
+    chord.strength = ball.strength;
+#ifdef RADII
+    chord.shrink = 1.0 / (ball.radius * ball.radius);
+#endif
+#endif
+    return chord.b > 0.0 && chord.a < chord.b;
+#endif
+}
+
+// Effective distance of the first ball that has not been read, in the ray's parameter, less what float and rounding may add.
+REAL links_near()
+{
+    if (links_past == NO_NODE) return FAR_AWAY;
+    uvec4 link = list_node(links_past);
+    return NUM(stream_distance(uintBitsToFloat(link.z), uintBitsToFloat(link.w), float(ball_get(link.x).radius)));
+}
+
+// A place of the stretch: its node, and what follows it. Used as EACH_ACTIVE(j) statement, with active_chord(j), active_ball(j).
+struct Place {
+    uint node;
+    uvec4 link;
     Chord chord;
-    chord_cut(links_ray, ball_get(list_nodes[node].x), chord);
-    return chord;
+    bool holds;
+};
+
+Place links_at(uint node)
+{
+    Place place;
+    place.node = node;
+    place.link = list_node(node);
+    place.holds = links_chord(place.link, place.chord);
+    links_work++;
+    return place;
 }
 
-uint active_ball(uint node)
+#define EACH_ACTIVE(j)                                                                                                            \
+    for (Place j = links_at(links_first); j.node != links_past; j = links_at(j.link.y))                                            \
+        if (j.holds && j.chord.a <= active_from && j.chord.b > active_from)
+
+Chord active_chord(Place place)
 {
-    return list_nodes[node].x;
+    return place.chord;
 }
 
-// Unlinks the nodes whose ball the ray misses in this precision, so that active_chord always holds.
-uint links_hit(uint head)
+uint active_ball(Place place)
 {
-    uint kept = NO_NODE;
-    uint last = NO_NODE;
-    for (uint node = head; node != NO_NODE;) {
-        uint next = list_nodes[node].y;
-        Chord chord;
-        if (chord_cut(links_ray, ball_get(list_nodes[node].x), chord)) {
-            if (last == NO_NODE)
-                kept = node;
-            else
-                list_nodes[last].y = node;
-            last = node;
+    return place.link.x;
+}
+
+// From s on: the next place at which a chord begins or ends, all balls read that may begin before. FAR_AWAY: there is none.
+REAL links_stop(REAL s)
+{
+    REAL stop = FAR_AWAY;
+    bool leading = true; // all before has ended: let it go
+    active_from = s;
+    uint node = links_first;
+    REAL near = NUM(0.0);
+    for (;;) {
+        if (node == links_past) {
+            near = links_near();
+            if (near > stop || links_past == NO_NODE) return stop;
+            links_past = list_node(links_past).y;
         }
-        node = next;
-    }
-    if (last != NO_NODE) list_nodes[last].y = NO_NODE;
-    return kept;
-}
-
-bool list_before(uint node_a, uint node_b)
-{
-    REAL a = active_chord(node_a).a;
-    REAL b = active_chord(node_b).a;
-    return a < b || (a == b && list_nodes[node_a].x < list_nodes[node_b].x);
-}
-#include "list_sort.glsl"
-
-// Lets go of the balls that end at or before s, takes in those that begin there.
-void active_move(REAL s)
-{
-    while (active_past != NO_NODE && active_chord(active_past).a <= s) active_past = list_nodes[active_past].y;
-    uint last = NO_NODE;
-    active_end = FAR_AWAY;
-    for (uint node = active_head; node != active_past;) {
-        uint next = list_nodes[node].y;
-        REAL b = active_chord(node).b;
-        if (b <= s) {
-            if (last == NO_NODE)
-                active_head = next;
-            else
-                list_nodes[last].y = next;
-        } else {
-            active_end = min(active_end, b);
-            last = node;
+        Place place = links_at(node);
+        node = place.link.y;
+        if (!place.holds || place.chord.b <= s) {
+            if (leading) links_first = node;
+            continue;
         }
-        node = next;
+        leading = false;
+        stop = min(stop, place.chord.a > s ? place.chord.a : place.chord.b);
     }
+    return stop;
 }

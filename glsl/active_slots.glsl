@@ -85,22 +85,6 @@ void slots_clear()
     slot_ball[0] = 0u;
 }
 
-// Effective distance of a ball in the ray's parameter, less what rounding may have added, from its chord: the square of the way from
-// the ray's start to the centre is m^2 + R^2 - Q^2.
-float stream_distance(Chord chord, float radius)
-{
-    float middle = 0.5 * (chord.a + chord.b), half_length = 0.5 * (chord.b - chord.a);
-    float lateral = max((radius - half_length) * (radius + half_length), 0.0);
-#ifdef FAR
-    // From the eye, which is the way `before` behind the ray's start; less that way, without cancellation.
-    float before = depth.y + view_excess, along = before + middle;
-    float distance = middle + lateral / (sqrt(along * along + lateral) + along);
-#else
-    float distance = sqrt(middle * middle + lateral);
-#endif
-    return distance - radius - 8.0e-6 * (abs(middle) + radius + view_reach);
-}
-
 // Looks at the ball of `node`.
 void stream_read(uint node)
 {
@@ -125,7 +109,7 @@ void stream_read(uint node)
 #else
     stream_chord.shrink = level.z;
 #endif
-    stream_near = ends ? FAR_AWAY : stream_distance(stream_chord, radius);
+    stream_near = ends ? FAR_AWAY : stream_distance(stream_chord.a, stream_chord.b, radius);
 }
 
 // Puts the ball that was read into a slot.

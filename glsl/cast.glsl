@@ -14,6 +14,7 @@
 #define LISTS_TEXELS
 #include "lists.glsl"
 #include "chord.glsl"
+#include "stream.glsl"
 #include "active_slots.glsl"
 #if SOLVER == SOLVER_EXACT && KERNEL <= DENSITY_WYVILL
 #if KERNEL == DENSITY_POLY2
@@ -80,6 +81,7 @@ int cast_walk(uint head, float limit, out float s)
     slots_clear();
     stream_read(head);
     float stop = FAR_AWAY;
+    int work = 0;
 #ifdef MONOMIAL
     bool gap = true;
 #endif
@@ -101,9 +103,11 @@ int cast_walk(uint head, float limit, out float s)
 #endif
             s = stop;
             stop = next;
+            work += slot_count + 2;
+            if (work > WALK_BUDGET) break;
         }
         if (!may) {
-            if (slot_overflow) return PIECE_CAP;
+            if (slot_overflow || work > WALK_BUDGET) return PIECE_CAP;
             if ((stop == FAR_AWAY && stream_near == FAR_AWAY) || s >= limit) return PIECE_NONE;
             continue;
         }
@@ -118,7 +122,9 @@ int cast_walk(uint head, float limit, out float s)
 #endif
         s = stop;
         stop = next;
+        work += 64;
     }
+    return PIECE_CAP; // only where the driver ended the loop
 }
 
 void main()
@@ -146,12 +152,22 @@ void main()
             pixel.normal = vec4(surface.normal, 1.0);
             pixel.color = surface.color;
         }
-        if (stream_disorder)
+        if (!loops_whole(int(level_two))) {
+            found = PIECE_CAP;
+            t = 0.0;
+        }
+        if (stream_disorder) {
             atomicAdd(count_disorder, 1u);
-        else if (found == PIECE_OPEN)
-            redo_add(position, REDO_FLOAT);
-        else if (found == PIECE_CAP)
-            redo_add(position, slot_overflow ? REDO_ACTIVE : REDO_STEPS);
+        } else if (found == PIECE_OPEN) {
+            atomicAdd(count_float, 1u);
+            redo_add(position, REDO_DOUBLE, 0.0);
+        } else if (found == PIECE_CAP) {
+            if (slot_overflow)
+                atomicAdd(count_active, 1u);
+            else
+                atomicAdd(count_steps, 1u);
+            redo_add(position, REDO_FLOAT, t);
+        }
     }
     out_t = pixel.t;
     out_normal = pixel.normal;

@@ -1,26 +1,24 @@
-// The pixels that the cast leaves to resolve, and the counts of why.
+// The pixels that the cast leaves, and the counts of why. Long walks and crowded ones go on in float over the whole list; what float
+// cannot decide is solved again in doubles.
 
 layout(std430, binding = 3) buffer Redo {
     uint redo_count;
-    uint count_disorder;  // pixels whose list was out of order: to be sorted and cast again
-    uint count_active;    // pixels whose active set outgrew the slots
-    uint count_steps;     // pixels whose root search hit its cap
-    uint count_float;     // pixels that float could not decide
-    uint count_undecided; // pixels that doubles left open
-    uint count_spare[2];
-    uint redo_pixels[];   // x + 65536 y
+    uint count_disorder;   // pixels whose list was out of order: to be sorted and cast again
+    uint count_active;     // pixels whose active set outgrew the slots
+    uint count_steps;      // pixels whose walk or root search took too many steps for the cast
+    uint count_float;      // pixels that float could not decide
+    uint count_undecided;  // pixels that doubles left open
+    uint count_unfinished; // entries that wait for another dispatch
+    uint count_spare;
+    uvec4 redo_entry[];    // pixel x + 65536 y; state; where the walk has come to, as bits
 };
 
-const int REDO_FLOAT = 0, REDO_ACTIVE = 1, REDO_STEPS = 2;
+const uint REDO_FLOAT = 1u;   // walk on in float
+const uint REDO_DOUBLE = 2u;  // solve in doubles
+const uint REDO_DONE = 3u;
 
-void redo_add(vec2 position, int why)
+void redo_add(vec2 position, uint state, float s)
 {
-    if (why == REDO_ACTIVE)
-        atomicAdd(count_active, 1u);
-    else if (why == REDO_STEPS)
-        atomicAdd(count_steps, 1u);
-    else
-        atomicAdd(count_float, 1u);
     uint at = atomicAdd(redo_count, 1u);
-    redo_pixels[at] = uint(position.x) | uint(position.y) << 16u;
+    redo_entry[at] = uvec4(uint(position.x) | uint(position.y) << 16u, state, floatBitsToUint(s), 0u);
 }

@@ -1,13 +1,15 @@
-// The slow path that is always right: pixels that the cast could not decide or hold, solved again in doubles by the same pieces,
-// over the pixel's whole list in place. Compute shader, one invocation a pixel of the redo list.
+// The slow path that is always right: pixels that the cast could not hold go on in float, pixels that float could not decide are
+// solved in doubles (MNS_DOUBLE), by the same pieces, over the pixel's whole list. Compute shader, one invocation an entry of the redo
+// list; a walk that takes long is left at a piece's end and taken up by the next dispatch.
 #include "real.glsl"
 #include "density.glsl"
 #include "view.glsl"
 #include "far.glsl"
 #include "balls.glsl"
-#define LISTS_ACCESS
+#define LISTS_ACCESS readonly
 #include "lists.glsl"
 #include "chord.glsl"
+#include "stream.glsl"
 #include "active_links.glsl"
 #if KERNEL <= DENSITY_WYVILL
 #if KERNEL == DENSITY_POLY2
@@ -38,25 +40,29 @@ layout(binding = 2, rgba32f) writeonly uniform image2D plane_normal;
 layout(binding = 3, rgba16f) writeonly uniform image2D plane_color;
 #endif
 
-int resolve_walk(REAL limit, out REAL s)
+#ifdef MNS_DOUBLE
+const uint RESOLVE_STATE = REDO_DOUBLE;
+uvec2 resolve_pack(REAL s) { return unpackDouble2x32(s); }
+REAL resolve_unpack(uvec2 bits) { return packDouble2x32(bits); }
+#else
+const uint RESOLVE_STATE = REDO_FLOAT;
+uvec2 resolve_pack(REAL s) { return uvec2(floatBitsToUint(s), 0u); }
+REAL resolve_unpack(uvec2 bits) { return uintBitsToFloat(bits.x); }
+#endif
+const int RESOLVE_LATER = 9; // beside the verdicts of a piece
+
+// Walks on from s until there is a verdict, or too much work for one dispatch.
+int resolve_walk(REAL limit, inout REAL s)
 {
-    s = NUM(0.0);
-    active_past = active_head;
-    for (;;) {
-        active_move(s);
-        if (active_head == active_past) {
-            if (active_past == NO_NODE) return PIECE_NONE;
-            s = max(s, active_chord(active_past).a);
-            continue;
-        }
-        if (s >= limit) return PIECE_NONE;
-        REAL stop = active_end;
-        if (active_past != NO_NODE) stop = min(stop, active_chord(active_past).a);
+    while (links_work < WALK_BUDGET) {
+        REAL stop = links_stop(s);
+        if (stop == FAR_AWAY || s >= limit) return PIECE_NONE;
         piece_begin();
         EACH_ACTIVE(j) piece_take(active_chord(j), s, stop);
         if (piece_may(s, stop, SIDE)) {
             REAL hit;
             int found = piece_solve(s, stop, SIDE, RESOLVE_STEPS, hit);
+            links_work += 64;
             if (found != PIECE_NONE) {
                 s = hit;
                 return found == PIECE_HIT && s > limit ? PIECE_NONE : found;
@@ -64,33 +70,51 @@ int resolve_walk(REAL limit, out REAL s)
         }
         s = stop;
     }
+    return RESOLVE_LATER;
 }
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= redo_count) return;
-    uint packed_pixel = redo_pixels[gl_GlobalInvocationID.x];
-    ivec2 at = ivec2(packed_pixel & 0xffffu, packed_pixel >> 16u);
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= redo_count) return;
+    uvec4 entry = redo_entry[index];
+    if (entry.y != RESOLVE_STATE) return;
+    ivec2 at = ivec2(entry.x & 0xffffu, entry.x >> 16u);
     vec2 position = vec2(at) + 0.5;
     links_ray = view_ray(position);
-    active_head = list_sort(links_hit(imageLoad(list_heads, at).x));
+    links_first = imageLoad(list_heads, at).x;
+    links_past = links_first;
     REAL limit = FAR_AWAY;
 #ifdef HOST_DEPTH
     limit = REAL(host_limit(position));
 #endif
-    REAL t;
-    int found = resolve_walk(limit, t);
-    Pixel pixel = pixel_miss(found == PIECE_NONE);
-    if (found == PIECE_HIT) {
-        Surface surface = surface_at(links_ray, t);
-        REAL shift = surface.shift;
-        if (!(abs(shift) <= NUM(1.0e-2) * surface.radius)) shift = NUM(0.0);
-        pixel.t = pixel_distance(position, t, shift);
-        pixel.normal = vec4(surface.normal, 1.0);
-        pixel.color = surface.color;
-    } else if (found != PIECE_NONE) {
-        atomicAdd(count_undecided, 1u);
+    REAL s = resolve_unpack(entry.zw);
+    int found = resolve_walk(limit, s);
+    Surface surface;
+    if (found == PIECE_HIT) surface = surface_at(links_ray, s);
+    bool whole = loops_whole(int(level_two));
+#ifndef MNS_DOUBLE
+    if (found == PIECE_HIT && !(abs(surface.shift) <= 1.0e-2 * surface.radius)) found = PIECE_OPEN;
+    if (found == PIECE_OPEN || found == PIECE_CAP || !whole) {
+        atomicAdd(count_float, 1u);
+        redo_entry[index] = uvec4(entry.x, REDO_DOUBLE, 0u, 0u);
+        return;
     }
+#endif
+    if (found == RESOLVE_LATER && whole) {
+        redo_entry[index] = uvec4(entry.x, RESOLVE_STATE, resolve_pack(s));
+        atomicAdd(count_unfinished, 1u);
+        return;
+    }
+    redo_entry[index] = uvec4(entry.x, REDO_DONE, 0u, 0u);
+    Pixel pixel = pixel_miss(found == PIECE_NONE && whole);
+    if (found == PIECE_HIT) {
+        if (!(abs(surface.shift) <= NUM(1.0e-2) * surface.radius)) surface.shift = NUM(0.0);
+        pixel.t = pixel_distance(position, s, surface.shift);
+        pixel.normal = vec4(surface.normal, whole ? 1.0 : 0.0);
+        pixel.color = surface.color;
+    }
+    if (pixel.normal.w == 0.0) atomicAdd(count_undecided, 1u);
     imageStore(plane_t, at, vec4(pixel.t, 0.0, 0.0));
     imageStore(plane_normal, at, pixel.normal);
 #ifdef COLORS

@@ -16,11 +16,12 @@ layout(std140, binding = 0) uniform View {
     REAL4 lens;    // cotangents of half the field of view across and up, width, height
     REAL4 depth;   // 1 / range of effective distances, depth of the plane where rays begin, jitter in pixels x, y
     REAL4 level;   // L, the radius of all balls, 1 / its square, reach: how far from o a ray begins at most
-    REAL4 core;    // core radius over R of every ball, 1 / the radius of all balls
+    REAL4 core;    // core radius over R of every ball, 1 / the radius of all balls, 2
     REAL4 host;    // near, far of a host's projection, lower left corner of the view in its framebuffer
 };
 
 #define level_inverse core.y
+#define level_two core.z
 
 struct Ray {
     REAL3 start;

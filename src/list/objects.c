@@ -51,7 +51,7 @@ static mns_status buffers(list_passes *p, gl_device *device, const mns_plan *pla
     } wanted[] = {
         {&p->nodes, "node pool", plan->pool_nodes * LIST_NODE},
         {&p->counter, "node counter", sizeof(uint32_t)},
-        {&p->redo, "list of pixels to resolve", sizeof(list_counts) + pixels * sizeof(uint32_t)},
+        {&p->redo, "list of pixels to resolve", sizeof(list_counts) + pixels * 4 * sizeof(uint32_t)},
         {&p->view, "view", VIEW_VECTORS * 4 * sizeof(float)},
     };
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
@@ -110,7 +110,7 @@ mns_status list_passes_compile(gl_device *device, gl_programs *programs, const m
         gl_shader shader = {.defines = defines};
         program[i] = 0;
         /* What only some pixels or balls may need is compiled when they do. */
-        if (!plan_needs(plan, i) || i == SHADER_RESOLVE || i == SHADER_ORDER) continue;
+        if (!plan_needs(plan, i) || i == SHADER_WALK || i == SHADER_RESOLVE || i == SHADER_ORDER) continue;
         plan_shader_files(i, &shader.vertex, &shader.fragment, &shader.compute);
         plan_shader_defines(plan, i, defines);
         mns_status status = gl_program_get(device, programs, &shader, &program[i], error);

@@ -232,20 +232,32 @@ void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GL
     read_counts(p, device, counts);
 }
 
-void list_resolve(list_passes *p, gl_device *device, const mns_plan *plan, GLuint program, const GLuint plane[3], uint32_t redo,
-                  list_counts *counts)
+static void dispatch_resolve(list_passes *p, gl_device *device, list_counts *counts)
+{
+    const GladGLContext *gl = &device->gl;
+    const uint32_t zero = 0;
+    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
+    gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, offsetof(list_counts, unfinished), sizeof zero, &zero);
+    gl->DispatchCompute((counts->redo + RESOLVE_GROUP - 1) / RESOLVE_GROUP, 1, 1);
+    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                      GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT |
+                      GL_TEXTURE_UPDATE_BARRIER_BIT);
+    read_counts(p, device, counts);
+}
+
+void list_resolve(list_passes *p, gl_device *device, const mns_plan *plan, GLuint program, bool wide,
+                  const GLuint plane[3], list_counts *counts)
 {
     const GladGLContext *gl = &device->gl;
     gl->UseProgram(program);
-    gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view_wide.id);
+    gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, wide ? p->view_wide.id : p->view.id);
     bind_lists(p, device, plan);
-    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, p->balls_low.id);
+    if (wide) gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, p->balls_low.id);
     gl->BindImageTexture(1, plane[0], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
     gl->BindImageTexture(2, plane[1], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
     if (plane[2]) gl->BindImageTexture(3, plane[2], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    gl->DispatchCompute((redo + RESOLVE_GROUP - 1) / RESOLVE_GROUP, 1, 1);
-    gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
-                      GL_PIXEL_BUFFER_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
-    read_counts(p, device, counts);
+    do {
+        dispatch_resolve(p, device, counts);
+    } while (counts->unfinished);
 }

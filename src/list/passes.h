@@ -12,7 +12,7 @@ typedef struct list_region {
 
 /* What a cast leaves to be read, as in glsl/redo.glsl. */
 typedef struct list_counts {
-    uint32_t redo, disorder, active, steps, undecided_float, undecided, spare[2];
+    uint32_t redo, disorder, active, steps, undecided_float, undecided, unfinished, spare;
 } list_counts;
 
 /* The GL objects of the list method; zeroed is empty. Textures are of the frame's size. */
@@ -54,8 +54,9 @@ void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const
 void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],
                GLuint target, list_region region, list_counts *counts);
 
-/* Solves `redo` pixels again in doubles into the planes' textures (t, normal, color or 0). Needs balls_low. */
-void list_resolve(list_passes *p, gl_device *device, const mns_plan *plan, GLuint program, const GLuint plane[3], uint32_t redo,
-                  list_counts *counts);
+/* Takes the redo list's entries on by `program`, in float or in doubles (which need balls_low), until none is unfinished, into the
+ * planes' textures (t, normal, color or 0). */
+void list_resolve(list_passes *p, gl_device *device, const mns_plan *plan, GLuint program, bool wide,
+                  const GLuint plane[3], list_counts *counts);
 
 #endif

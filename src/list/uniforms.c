@@ -37,7 +37,7 @@ void list_view_block(const mns_plan *plan, const mns_field *field, const double 
     put(wide, 9, (vec3){cot * f->height / f->width, cot, f->width}, f->height);
     put(wide, 10, (vec3){1 / plan->depth_range, depth, jitter[0]}, jitter[1]);
     put(wide, 11, (vec3){field->iso, radius, radius > 0 ? 1 / (radius * radius) : 0}, plan->reach);
-    put(wide, 12, (vec3){plan->core_ratio, radius > 0 ? 1 / radius : 0, 0}, 0);
+    put(wide, 12, (vec3){plan->core_ratio, radius > 0 ? 1 / radius : 0, 2}, 0);
     put(wide, 13, (vec3){host ? host->near : 0, host ? host->far : 1, host ? host->x : 0}, host ? host->y : 0);
     for (int i = 0; i < VIEW_VECTORS * 4; i++) narrow[i] = (float)wide[i];
 }

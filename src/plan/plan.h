@@ -96,7 +96,8 @@ typedef enum plan_shader {
     SHADER_SHUFFLE,
     SHADER_ORDER,
     SHADER_CAST,
-    SHADER_RESOLVE,
+    SHADER_WALK,    /* resolve.glsl in float */
+    SHADER_RESOLVE, /* and in doubles */
     SHADER_SHADE,
     SHADER_HOST_DEPTH,
     SHADER_HOST_DRAW,

@@ -25,6 +25,7 @@ static const shader_part parts[SHADER_COUNT] = {
     [SHADER_ORDER] = {NULL, NULL, "order.glsl", 0},
     [SHADER_SHUFFLE] = {NULL, NULL, "shuffle.glsl", 0},
     [SHADER_CAST] = {"screen.vert.glsl", "cast.glsl", NULL, READS_RAY},
+    [SHADER_WALK] = {NULL, NULL, "resolve.glsl", READS_RAY & ~(uint64_t)(FEATURE_SOLVER | FEATURE_TEXELS)},
     [SHADER_RESOLVE] = {NULL, NULL, "resolve.glsl",
                         READS_RAY & ~(uint64_t)(FEATURE_SOLVER | FEATURE_TEXELS)},
     [SHADER_SHADE] = {"screen.vert.glsl", "shade.frag.glsl", NULL,
@@ -71,15 +72,20 @@ static void add_features(char *defines, uint64_t f)
         if (f & names[i].bit) add(defines, names[i].name, 1);
 }
 
+/* Loop rounds that one invocation may take: drivers may stop endless-looking shaders, llvmpipe does after 65,535 rounds of all the
+ * loops of eight lanes together. */
+enum { WALK_BUDGET = 5000 };
+
 /* Numbers that a walk along a ray is specialised by. */
 static void add_ray(const mns_plan *plan, plan_shader shader, char *defines, uint64_t f)
 {
     add(defines, "KERNEL", (int)(f & FEATURE_KERNEL));
     add(defines, "SIDE", f & FEATURE_EYE_INSIDE ? 1 : -1);
-    add(defines, "REDO_GROUP", RESOLVE_GROUP);
-    if (shader == SHADER_RESOLVE) {
-        add(defines, "MNS_DOUBLE", 1);
-        add(defines, "RESOLVE_STEPS", 2000);
+    add(defines, "WALK_BUDGET", WALK_BUDGET);
+    if (shader == SHADER_RESOLVE) add(defines, "MNS_DOUBLE", 1);
+    if (shader != SHADER_CAST) {
+        add(defines, "REDO_GROUP", RESOLVE_GROUP);
+        add(defines, "RESOLVE_STEPS", 200);
         return;
     }
     add(defines, "SOLVER_EXACT", MNS_SOLVER_EXACT);
@@ -93,7 +99,7 @@ void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[
 {
     uint64_t f = plan->features & parts[shader].reads;
     defines[0] = '\0';
-    if (shader == SHADER_CAST || shader == SHADER_RESOLVE) add_ray(plan, shader, defines, f);
+    if (shader == SHADER_CAST || shader == SHADER_WALK || shader == SHADER_RESOLVE) add_ray(plan, shader, defines, f);
     if (shader == SHADER_CORE_QUADS || shader == SHADER_CORE_POINTS) add(defines, "CORE_SPHERE", 1);
     if (shader == SHADER_CORE_POINTS || shader == SHADER_GATHER_POINTS) add(defines, "POINTS", 1);
     if (shader == SHADER_GATHER_QUADS || shader == SHADER_GATHER_POINTS) {

@@ -142,24 +142,36 @@ static mns_status late_program(draw *d, plan_shader which, mns_error *error)
     return gl_program_get(&d->r->device, &d->r->programs, &shader, &d->program[which], error);
 }
 
-/* Pixels that the cast left: their balls' low words and the doubles' program are made when the first one needs them. */
-static mns_status resolve(draw *d, list_counts *counts, mns_error *error)
+/* The low words of the balls, when the first pixel needs doubles. */
+static mns_status upload_low(draw *d, mns_error *error)
 {
-    gl_device *device = &d->r->device;
     list_passes *p = &d->r->passes;
-    mns_status status = late_program(d, SHADER_RESOLVE, error);
-    if (!status) status = gl_buffer_reserve(device, &p->view_wide, "view", sizeof d->wide, 0, error);
+    mns_status status = gl_buffer_reserve(&d->r->device, &p->view_wide, "view", sizeof d->wide, 0, error);
     if (status) return status;
     send(d, &p->view_wide, d->wide, sizeof d->wide);
-    if (!d->r->last.low) {
-        mark(d, MNS_PHASE_CAST);
-        status = upload(d, &p->balls_low, "balls", d->plan->ball_floats, 1, error);
-        if (status) return status;
-        d->r->last.low = true;
-        mark(d, MNS_PHASE_UPLOAD);
-    }
+    if (d->r->last.low) return MNS_OK;
+    mark(d, MNS_PHASE_CAST);
+    status = upload(d, &p->balls_low, "balls", d->plan->ball_floats, 1, error);
+    d->r->last.low = !status;
+    mark(d, MNS_PHASE_UPLOAD);
+    return status;
+}
+
+/* Pixels that the cast left: first those that only need room, then those that need doubles. */
+static mns_status resolve(draw *d, list_counts *counts, mns_error *error)
+{
     const GLuint planes[3] = {d->frame->t, d->frame->normal, d->frame->color};
-    list_resolve(p, device, d->plan, d->program[SHADER_RESOLVE], planes, counts->redo, counts);
+    list_passes *p = &d->r->passes;
+    if (counts->active + counts->steps > 0) {
+        mns_status status = late_program(d, SHADER_WALK, error);
+        if (status) return status;
+        list_resolve(p, &d->r->device, d->plan, d->program[SHADER_WALK], false, planes, counts);
+    }
+    if (!counts->undecided_float) return MNS_OK;
+    mns_status status = late_program(d, SHADER_RESOLVE, error);
+    if (!status) status = upload_low(d, error);
+    if (status) return status;
+    list_resolve(p, &d->r->device, d->plan, d->program[SHADER_RESOLVE], true, planes, counts);
     return MNS_OK;
 }
 
@@ -214,7 +226,9 @@ static mns_status cast(draw *d, list_region region, list_counts *counts, mns_err
     status = sort_lists(d, region, error);
     if (status) return status;
     list_cast(&d->r->passes, &d->r->device, d->plan, d->program, d->frame->planes_target, region, counts);
-    return MNS_OK;
+    if (!counts->disorder) return MNS_OK;
+    return status_fail(error, MNS_ERROR_GL, "%s cannot sort the lists of %u pixels; draw fewer balls or a smaller frame",
+                       d->r->device.name, counts->disorder);
 }
 
 /* Gathers and casts a region of the frame. */
