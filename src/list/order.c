@@ -38,8 +38,8 @@ static uint32_t sortable(float value)
     return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
 }
 
-/* Whether the ball can touch the view; if so *key is its class and effective distance. */
-static bool cull_ball(const cull *c, vec3 at, double radius, uint32_t *key)
+/* Whether the ball can touch the view; if so *key is its effective distance, and *point whether a point can hold it. */
+static bool cull_ball(const cull *c, vec3 at, double radius, uint32_t *key, bool *point)
 {
     vec3 d = vec3_sub(at, c->frame.eye);
     double x = fabs(vec3_dot(d, c->frame.right)), y = fabs(vec3_dot(d, c->frame.up));
@@ -48,26 +48,29 @@ static bool cull_ball(const cull *c, vec3 at, double radius, uint32_t *key)
     if (z <= -cover || x - z * c->tan_x > cover * c->side_x || y - z * c->tan_y > cover * c->side_y) return false;
     double away = vec3_length(d), square = (z - radius) * (z + radius), widest = x > y ? x : y;
     /* Diameter of the projection: between the tangents from the eye. */
-    bool point = z > 1.01 * radius && 2.001 * c->pixels * radius * sqrt(widest * widest + square) < square * c->most_point;
+    *point = z > 1.01 * radius && 2.001 * c->pixels * radius * sqrt(widest * widest + square) < square * c->most_point;
     double far_part = c->plane_depth > 0 ? away - c->plane_depth : away;
-    *key = sortable((float)(far_part - radius)) >> 1 | (point ? 0x80000000u : 0);
+    *key = sortable((float)(far_part - radius));
     return true;
 }
 
 /* Each thread culls its stretch to the place where the stretch begins; then the gaps are closed in order. */
-static size_t cull_all(list_order *order, const mns_field *field, const cull *c)
+static size_t cull_all(list_order *order, const mns_field *field, const cull *c, uint32_t *past_large)
 {
     size_t kept[64], begin[64], parts = 1, total = field->p.count;
+    uint32_t large = 0; /* farthest key of a ball that is no point, plus one */
     const double *x = field->p.axis[0], *y = field->p.axis[1], *z = field->p.axis[2];
     int threads = omp_get_max_threads() > 64 ? 64 : omp_get_max_threads();
-#pragma omp parallel num_threads(threads) if (total > 4096)
+#pragma omp parallel num_threads(threads) reduction(max : large) if (total > 4096)
     {
         size_t self = (size_t)omp_get_thread_num(), all = (size_t)omp_get_num_threads();
         size_t first = total * self / all, past = total * (self + 1) / all, n = first;
         for (size_t i = first; i < past; i++) {
             uint32_t key;
+            bool point;
             vec3 at = {x[i], y[i], z[i]};
-            if (!cull_ball(c, at, field_radius(field, i), &key)) continue;
+            if (!cull_ball(c, at, field_radius(field, i), &key, &point)) continue;
+            if (!point && key >= large) large = key + 1;
             vec3 from = vec3_sub(at, c->origin);
             order->ball[n] = (list_ball){{(float)from.x, (float)from.y, (float)from.z}, (uint32_t)i};
             order->key[n++] = (uint64_t)key << 32;
@@ -83,6 +86,7 @@ static size_t cull_all(list_order *order, const mns_field *field, const cull *c)
         memmove(order->key + count, order->key + begin[part], kept[part] * sizeof *order->key);
         count += kept[part];
     }
+    *past_large = large;
     return count;
 }
 
@@ -107,14 +111,15 @@ mns_status list_order_make(list_order *order, const mns_field *field, const mns_
     mns_status status = reserve(order, field->p.count, error);
     if (status) return status;
     cull c = cull_make(plan);
-    size_t count = cull_all(order, field, &c);
+    uint32_t past_large;
+    size_t count = cull_all(order, field, &c, &past_large);
     for (size_t i = 0; i < count; i++) order->key[i] |= (uint32_t)i;
     list_radix_sort(order->key, order->scratch, order->digits, count);
     order->count = count;
-    size_t low = 0, high = count; /* first point */
+    size_t low = 0, high = count; /* where the keys reach past_large */
     while (low < high) {
         size_t middle = (low + high) / 2;
-        if (order->key[middle] >> 63)
+        if (order->key[middle] >> 32 >= past_large)
             high = middle;
         else
             low = middle + 1;

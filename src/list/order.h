@@ -12,16 +12,15 @@ typedef struct list_ball {
 
 typedef struct list_order {
     list_ball *ball;   /* in view, in the order of the field */
-    uint64_t *key;     /* sorted: class and effective distance in the upper half, place in `ball` in the lower */
+    uint64_t *key;     /* sorted: effective distance in the upper half, place in `ball` in the lower */
     uint64_t *scratch;
     uint32_t *digits;  /* counts of the sort */
     size_t capacity;
     size_t count;      /* balls in view */
-    size_t quads;      /* the first of them in order are too large for points */
+    size_t quads;      /* of them in order, up to the last that is too large for a point: all drawn as rectangles */
 } list_order;
 
-/* Culls what is outside the view, sorts the rest: rectangles first, then points, each ascending by |p - e| - R, ties by
- * index. Parallel, the same result for any number of threads. Errors: MEMORY. */
+/* Culls what is outside the view, sorts the rest ascending by |p - e| - R, ties by index. Parallel, the same result for any number of threads. Errors: MEMORY. */
 mns_status list_order_make(list_order *order, const mns_field *field, const mns_plan *plan, mns_error *error);
 void list_order_free(list_order *order);
 

@@ -72,16 +72,17 @@ static void add_features(char *defines, uint64_t f)
         if (f & names[i].bit) add(defines, names[i].name, 1);
 }
 
-/* Loop rounds that one invocation may take: drivers may stop endless-looking shaders, llvmpipe does after 65,535 rounds of all the
- * loops of eight lanes together. */
-enum { WALK_BUDGET = 5000 };
+/* Loop rounds that one invocation may take: drivers may stop endless-looking shaders; llvmpipe does after 65,535 rounds of all the
+ * loops of eight lanes together. The cast, whose lanes walk much alike, may take more: a cut is noticed, and the walk done again. A
+ * walk over the list, which comes back for more, stays below a cut by lanes however different. */
+enum { CAST_BUDGET = 24000, WALK_BUDGET = 5000 };
 
 /* Numbers that a walk along a ray is specialised by. */
 static void add_ray(const mns_plan *plan, plan_shader shader, char *defines, uint64_t f)
 {
     add(defines, "KERNEL", (int)(f & FEATURE_KERNEL));
     add(defines, "SIDE", f & FEATURE_EYE_INSIDE ? 1 : -1);
-    add(defines, "WALK_BUDGET", WALK_BUDGET);
+    add(defines, "WALK_BUDGET", shader == SHADER_CAST ? CAST_BUDGET : WALK_BUDGET);
     if (shader == SHADER_RESOLVE) add(defines, "MNS_DOUBLE", 1);
     if (shader != SHADER_CAST) {
         add(defines, "REDO_GROUP", RESOLVE_GROUP);
