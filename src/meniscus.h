@@ -1,14 +1,16 @@
 /* Meniscus: the exact surface of a particle field, drawn straight from the particles.
  *
  * The field is f(x) = sum of q_i k(|x - p_i| / R_i); the surface is f = L ("iso level"), inside is f > L.
- * A descriptor filled with zeros means the defaults. Every object has one create (or open, load, read) and one
- * null-safe destroy. Lengths are in scene units, angles in degrees, colours linear in [0, 1].
+ * A descriptor filled with zeros means the defaults. Every object has one create (or open, load, read) and
+ * one null-safe destroy. Lengths are in scene units, angles in degrees, colours linear in [0, 1].
  *
- * Errors: a function that can fail returns an mns_status and, when `error` is not NULL, fills it with one line
- * that says what went wrong, where, and what to do. On failure nothing is created and outputs are left as they were.
+ * Errors: a function that can fail returns an mns_status and, when `error` is not NULL, fills it with one
+ * line that says what went wrong, where, and what to do. On failure nothing is created and outputs are left
+ * as they were.
  *
  * Threads: there is no global state. An object may be used by one thread at a time; different objects are
- * independent. A renderer and its frames belong to one GL context and must be used on the thread where it is current.
+ * independent. A renderer and its frames belong to one GL context and must be used on the thread where it is
+ * current.
  */
 #ifndef MENISCUS_H
 #define MENISCUS_H
@@ -31,7 +33,8 @@ extern "C" {
 #define MNS_VERSION_MINOR 1
 #define MNS_VERSION_PATCH 0
 
-/* ---- Errors ------------------------------------------------------------------------------------------------- */
+/* ---- Errors
+ * ------------------------------------------------------------------------------------------------- */
 
 typedef enum mns_status {
     MNS_OK = 0,
@@ -48,10 +51,12 @@ typedef struct mns_error {
     char text[480]; /* one line, no newline, always terminated */
 } mns_error;
 
-/* The version and what was built in, one line ("meniscus 0.1.0, EGL, OSMesa, GLFW 3.3.8, ..."). Thread safe. */
+/* The version and what was built in, one line ("meniscus 0.1.0, EGL, OSMesa, GLFW 3.3.8, ..."). Thread safe.
+ */
 MNS_API const char *mns_version(void);
 
-/* ---- The field ---------------------------------------------------------------------------------------------- */
+/* ---- The field
+ * ---------------------------------------------------------------------------------------------- */
 
 /* Kernels k(v), v = |x - p| / R in [0, 1], k(0) = 1, zero beyond 1. Formulas: glsl/density.glsl. */
 typedef enum mns_kernel {
@@ -83,27 +88,28 @@ typedef struct mns_column_desc {
 } mns_column_desc;
 
 typedef struct mns_field_desc {
-    size_t count;           /* balls; 0 is legal: an empty field */
-    mns_values position;    /* three numbers an element */
-    mns_values radius;      /* effective radii R_i > 0; absent: uniform_radius */
-    mns_values strength;    /* q_i, any finite sign; absent: 1 */
-    double uniform_radius;  /* 0: 2 x the median nearest-neighbour distance (a lone ball: 1) */
+    size_t count;          /* balls; 0 is legal: an empty field */
+    mns_values position;   /* three numbers an element */
+    mns_values radius;     /* effective radii R_i > 0; absent: uniform_radius */
+    mns_values strength;   /* q_i, any finite sign; absent: 1 */
+    double uniform_radius; /* 0: 2 x the median nearest-neighbour distance (a lone ball: 1) */
     mns_kernel kernel;
-    double iso;             /* L > 0; 0: 0.2 */
+    double iso;                     /* L > 0; 0: 0.2 */
     const mns_column_desc *columns; /* extra scalars, for colour */
     size_t column_count;
 } mns_field_desc;
 
 typedef struct mns_field mns_field;
 
-/* Copies the host's arrays into a field. Errors: USAGE (a number not finite, R <= 0, L < 0, a name twice), MEMORY. */
+/* Copies the host's arrays into a field. Errors: USAGE (a number not finite, R <= 0, L < 0, a name twice),
+ * MEMORY. */
 MNS_API mns_status mns_field_create(const mns_field_desc *desc, mns_field **field, mns_error *error);
 MNS_API void mns_field_destroy(mns_field *field);
 
 /* What a field holds; the pointers live as long as the field. */
 typedef struct mns_field_info {
     size_t count;
-    double lo[3], hi[3];                 /* box of the centres; zeros where count is 0 */
+    double lo[3], hi[3];                     /* box of the centres; zeros where count is 0 */
     double effective_lo[3], effective_hi[3]; /* box of the effective spheres */
     double radius_min, radius_median, radius_max;
     double strength_min, strength_max;
@@ -121,7 +127,7 @@ typedef struct mns_field_info {
 
 typedef struct mns_column_info {
     const char *name;
-    bool is_label;  /* a text column (element): values are indices into labels */
+    bool is_label; /* a text column (element): values are indices into labels */
     double min, max;
     size_t label_count;
     const char *const *labels;
@@ -131,7 +137,8 @@ MNS_API void mns_field_get_info(const mns_field *field, mns_field_info *info);
 /* Column `index` < column_count. False where there is none. */
 MNS_API bool mns_field_get_column(const mns_field *field, size_t index, mns_column_info *info);
 
-/* ---- Input: particle files and generators ------------------------------------------------------------------ */
+/* ---- Input: particle files and generators
+ * ------------------------------------------------------------------ */
 
 typedef struct mns_input_options { /* zero: what the file says, or the default */
     mns_kernel kernel;
@@ -142,8 +149,9 @@ typedef struct mns_input_options { /* zero: what the file says, or the default *
 
 typedef struct mns_input mns_input;
 
-/* Opens `count` names as one sequence: particle files (plain or gzipped, told by content first, by name second), or one
- * generator "name:count[:seed[:frames]]". Errors: USAGE (unknown generator), IO, INPUT, MEMORY. */
+/* Opens `count` names as one sequence: particle files (plain or gzipped, told by content first, by name
+ * second), or one generator "name:count[:seed[:frames]]". Errors: USAGE (unknown generator), IO, INPUT,
+ * MEMORY. */
 MNS_API mns_status mns_input_open(const char *const *names, size_t count, const mns_input_options *options,
                                   mns_input **input, mns_error *error);
 MNS_API void mns_input_close(mns_input *input);
@@ -152,22 +160,25 @@ MNS_API size_t mns_input_frames(const mns_input *input);
 /* Reads frame `frame` (from 0). Errors: USAGE (no such frame), IO, INPUT, MEMORY. */
 MNS_API mns_status mns_input_read(mns_input *input, size_t frame, mns_field **field, mns_error *error);
 
-/* ---- View, look, options ------------------------------------------------------------------------------------ */
+/* ---- View, look, options
+ * ------------------------------------------------------------------------------------ */
 
 enum { MNS_VIEW_EYE = 1, MNS_VIEW_LOOK_AT = 2 }; /* bits of mns_view.set */
 
 typedef struct mns_view {
-    unsigned set;         /* which of eye and look_at are given; what is not is fitted to the field */
+    unsigned set; /* which of eye and look_at are given; what is not is fitted to the field */
     double eye[3];
     double look_at[3];
-    double up[3];         /* 0,0,0: 0,1,0 */
-    double fov;           /* vertical, degrees, in (0, 180); 0: 45 */
-    int width, height;    /* pixels; 0: 1024 x 768 */
+    double up[3];      /* 0,0,0: 0,1,0 */
+    double fov;        /* vertical, degrees, in (0, 180); 0: 45 */
+    int width, height; /* pixels; 0: 1024 x 768 */
 } mns_view;
 
-/* Fills what a view leaves open so that the box of the effective spheres fits the frame, looking along -z; afterwards both
- * bits are set. Errors: USAGE (eye = look_at, up along the view, fov or size out of range, a number not finite). */
-MNS_API mns_status mns_view_resolve(const mns_view *view, const mns_field *field, mns_view *resolved, mns_error *error);
+/* Fills what a view leaves open so that the box of the effective spheres fits the frame, looking along -z;
+ * afterwards both bits are set. Errors: USAGE (eye = look_at, up along the view, fov or size out of range, a
+ * number not finite). */
+MNS_API mns_status mns_view_resolve(const mns_view *view, const mns_field *field, mns_view *resolved,
+                                    mns_error *error);
 
 typedef enum mns_light_kind { MNS_LIGHT_HEAD = 0, MNS_LIGHT_DIRECTIONAL } mns_light_kind;
 typedef enum mns_shading { MNS_SHADING_SMOOTH = 0, MNS_SHADING_CEL } mns_shading;
@@ -183,17 +194,17 @@ typedef enum mns_color_map {
 MNS_API const char *mns_color_map_name(mns_color_map map);
 MNS_API mns_color_map mns_color_map_by_name(const char *name); /* MNS_COLOR_MAP_COUNT: no such map */
 
-/* A colour as people write it: "R,G,B" or "R,G,B,A" in [0, 1], "#rrggbb", "#rrggbbaa" or "transparent", as sRGB and alpha (1
- * where none is written). Errors: USAGE. */
+/* A colour as people write it: "R,G,B" or "R,G,B,A" in [0, 1], "#rrggbb", "#rrggbbaa" or "transparent", as
+ * sRGB and alpha (1 where none is written). Errors: USAGE. */
 MNS_API mns_status mns_color_parse(const char *text, double rgba[4], mns_error *error);
 
 enum { /* bits of mns_look.set: the members below that are given */
-    MNS_LOOK_COLOR = 1,
-    MNS_LOOK_BACKGROUND = 2,
-    MNS_LOOK_RANGE = 4,
-    MNS_LOOK_AMBIENT = 8,
-    MNS_LOOK_DIFFUSE = 16,
-    MNS_LOOK_SPECULAR = 32
+       MNS_LOOK_COLOR = 1,
+       MNS_LOOK_BACKGROUND = 2,
+       MNS_LOOK_RANGE = 4,
+       MNS_LOOK_AMBIENT = 8,
+       MNS_LOOK_DIFFUSE = 16,
+       MNS_LOOK_SPECULAR = 32
 };
 
 typedef struct mns_look {
@@ -201,14 +212,14 @@ typedef struct mns_look {
     mns_light_kind light;
     double light_direction[3]; /* towards the light; for DIRECTIONAL; 0,0,0: 1,2,1.5 */
     mns_shading shading;
-    int cel_bands;             /* 0: 3 */
-    double color[3];           /* surface colour, sRGB; default 0.35, 0.62, 0.86 */
-    double background[4];      /* sRGB and alpha, not premultiplied; default opaque white; alpha 0: transparent */
+    int cel_bands;        /* 0: 3 */
+    double color[3];      /* surface colour, sRGB; default 0.35, 0.62, 0.86 */
+    double background[4]; /* sRGB and alpha, not premultiplied; default opaque white; alpha 0: transparent */
     double ambient, diffuse, specular; /* defaults 0.15, 0.85, 0.25 */
-    double shininess;          /* Blinn-Phong exponent; 0: 40 */
-    const char *color_by;      /* NULL: color; "element" or any column's name; borrowed for the call */
+    double shininess;                  /* Blinn-Phong exponent; 0: 40 */
+    const char *color_by; /* NULL: color; "element" or any column's name; borrowed for the call */
     mns_color_map color_map;
-    double range[2];           /* value range of the map; default: the column's minimum and maximum */
+    double range[2]; /* value range of the map; default: the column's minimum and maximum */
 } mns_look;
 
 typedef enum mns_method { MNS_METHOD_AUTO = 0, MNS_METHOD_LIST } mns_method;
@@ -219,26 +230,29 @@ typedef struct mns_options {
     mns_method method;
     mns_solver solver;
     mns_gather gather;
-    int samples;           /* samples a pixel for colour; 0: 1; planes are the centre sample's whatever it is; at most 64 */
-    bool moved;            /* every position changed since the last draw: reuse nothing */
-    bool measure;          /* fill the phases' times (each closed by glFinish) and the lengths of the lists */
+    int samples;  /* samples a pixel for colour; 0: 1; planes are the centre sample's whatever it is; at most
+                     64 */
+    bool moved;   /* every position changed since the last draw: reuse nothing */
+    bool measure; /* fill the phases' times (each closed by glFinish) and the lengths of the lists */
     size_t max_pool_nodes; /* 0: what the driver allows; fewer makes the frame be drawn in more tiles */
-    /* For tests and diagnosis: each drives a path that ordinary scenes seldom take; the picture stays right. */
-    int slots;             /* balls of a ray at once before the slow path; 0: the plan's choice */
-    int root_steps;        /* steps of a root search before the slow path; 0: the plan's choice */
-    uint32_t shuffle;      /* not 0: a seed by which the gathered lists are put in a random order */
+    /* For tests and diagnosis: each drives a path that ordinary scenes seldom take; the picture stays right.
+     */
+    int slots;        /* balls of a ray at once before the slow path; 0: the plan's choice */
+    int root_steps;   /* steps of a root search before the slow path; 0: the plan's choice */
+    uint32_t shuffle; /* not 0: a seed by which the gathered lists are put in a random order */
 } mns_options;
 
-/* ---- The plan ----------------------------------------------------------------------------------------------- */
+/* ---- The plan
+ * ----------------------------------------------------------------------------------------------- */
 
-typedef struct mns_limits { /* of a driver; zeros: the minima of OpenGL 4.3 */
-    size_t max_storage_block;   /* bytes, GL_MAX_SHADER_STORAGE_BLOCK_SIZE */
-    int max_texture_size;       /* GL_MAX_TEXTURE_SIZE */
-    int max_viewport[2];        /* GL_MAX_VIEWPORT_DIMS */
-    int max_texture_buffer;     /* texels, GL_MAX_TEXTURE_BUFFER_SIZE */
-    double max_point_size;      /* GL_POINT_SIZE_RANGE[1] */
-    bool is_software;           /* the renderer is llvmpipe, softpipe or swr */
-    bool has_clip_control;      /* GL 4.5 or GL_ARB_clip_control */
+typedef struct mns_limits {   /* of a driver; zeros: the minima of OpenGL 4.3 */
+    size_t max_storage_block; /* bytes, GL_MAX_SHADER_STORAGE_BLOCK_SIZE */
+    int max_texture_size;     /* GL_MAX_TEXTURE_SIZE */
+    int max_viewport[2];      /* GL_MAX_VIEWPORT_DIMS */
+    int max_texture_buffer;   /* texels, GL_MAX_TEXTURE_BUFFER_SIZE */
+    double max_point_size;    /* GL_POINT_SIZE_RANGE[1] */
+    bool is_software;         /* the renderer is llvmpipe, softpipe or swr */
+    bool has_clip_control;    /* GL 4.5 or GL_ARB_clip_control */
 } mns_limits;
 
 typedef struct mns_plan mns_plan;
@@ -261,80 +275,92 @@ MNS_API const mns_left_out *mns_plan_left_out(const mns_plan *plan, size_t *coun
 /* The whole plan as text of several lines, as --explain prints it. Lives as long as the plan. */
 MNS_API const char *mns_plan_text(const mns_plan *plan);
 
-/* ---- GL contexts without a window ---------------------------------------------------------------------------- */
+/* ---- GL contexts without a window
+ * ---------------------------------------------------------------------------- */
 
-typedef enum mns_backend { MNS_BACKEND_AUTO = 0, MNS_BACKEND_EGL, MNS_BACKEND_OSMESA, MNS_BACKEND_GLFW } mns_backend;
+typedef enum mns_backend {
+    MNS_BACKEND_AUTO = 0,
+    MNS_BACKEND_EGL,
+    MNS_BACKEND_OSMESA,
+    MNS_BACKEND_GLFW
+} mns_backend;
 
 typedef void (*mns_proc)(void);
-typedef mns_proc (*mns_get_proc)(const char *name); /* glfwGetProcAddress and eglGetProcAddress have this type */
+typedef mns_proc (*mns_get_proc)(
+    const char *name); /* glfwGetProcAddress and eglGetProcAddress have this type */
 
 typedef struct mns_context mns_context;
 
-/* Makes an OpenGL core context of at least 4.3 with no visible window, and makes it current on this thread; whatever context
- * was current there no longer is. AUTO tries EGL (surfaceless, then device; a GPU's device before a surfaceless software
- * renderer), OSMesa, a hidden GLFW window. GLFW: main thread only, and glfwTerminate is left to the host. Errors: GL (library
- * missing, version too old, driver failed: the text says which, for each one tried), UNSUPPORTED (not built in). */
+/* Makes an OpenGL core context of at least 4.3 with no visible window, and makes it current on this thread;
+ * whatever context was current there no longer is. AUTO tries EGL (surfaceless, then device; a GPU's device
+ * before a surfaceless software renderer), OSMesa, a hidden GLFW window. GLFW: main thread only, and
+ * glfwTerminate is left to the host. Errors: GL (library missing, version too old, driver failed: the text
+ * says which, for each one tried), UNSUPPORTED (not built in). */
 MNS_API mns_status mns_context_create(mns_backend backend, mns_context **context, mns_error *error);
 MNS_API void mns_context_destroy(mns_context *context);
 MNS_API mns_status mns_context_make_current(mns_context *context, mns_error *error);
 MNS_API mns_get_proc mns_context_get_proc(const mns_context *context);
 /* "egl surfaceless", "egl device 0", "osmesa", "glfw". */
 MNS_API const char *mns_context_name(const mns_context *context);
-/* What a back end (AUTO: each of them) offers on this machine: version, renderer, the limits that matter, or why it cannot
- * start; several lines without a last newline, to be given to free(). NULL: out of memory. Leaves no context current. */
+/* What a back end (AUTO: each of them) offers on this machine: version, renderer, the limits that matter, or
+ * why it cannot start; several lines without a last newline, to be given to free(). NULL: out of memory.
+ * Leaves no context current. */
 MNS_API char *mns_backend_describe(mns_backend backend);
 
-/* ---- Drawing ------------------------------------------------------------------------------------------------ */
+/* ---- Drawing
+ * ------------------------------------------------------------------------------------------------ */
 
 typedef struct mns_renderer mns_renderer;
 typedef struct mns_frame mns_frame;
 
-/* Makes what one context needs, with that context current. `get_proc` finds GL functions. Nothing is compiled before a
- * frame asks for it. Errors: GL (below 4.3), MEMORY. */
+/* Makes what one context needs, with that context current. `get_proc` finds GL functions. Nothing is compiled
+ * before a frame asks for it. Errors: GL (below 4.3), MEMORY. */
 MNS_API mns_status mns_renderer_create(mns_get_proc get_proc, mns_renderer **renderer, mns_error *error);
 MNS_API void mns_renderer_destroy(mns_renderer *renderer); /* its context current; destroy its frames first */
 MNS_API const mns_limits *mns_renderer_limits(const mns_renderer *renderer);
 /* GL_RENDERER and GL_VERSION, "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6". */
 MNS_API const char *mns_renderer_name(const mns_renderer *renderer);
-/* Messages of medium or high severity that the driver's debug output gave so far (0 where it gives none), and the last. */
+/* Messages of medium or high severity that the driver's debug output gave so far (0 where it gives none), and
+ * the last. */
 MNS_API size_t mns_renderer_messages(const mns_renderer *renderer, const char **last);
 
 MNS_API mns_status mns_frame_create(mns_renderer *renderer, mns_frame **frame, mns_error *error);
 MNS_API void mns_frame_destroy(mns_frame *frame);
 
-/* Draws the field's surface into the frame's planes and shades it. view, look and options may be NULL (defaults). The GL
- * state that it changes is put back as it was. Errors: USAGE, MEMORY, GL, UNSUPPORTED. */
+/* Draws the field's surface into the frame's planes and shades it. view, look and options may be NULL
+ * (defaults). The GL state that it changes is put back as it was. Errors: USAGE, MEMORY, GL, UNSUPPORTED. */
 MNS_API mns_status mns_renderer_draw(mns_renderer *renderer, const mns_field *field, const mns_view *view,
                                      const mns_look *look, const mns_options *options, mns_frame *frame,
                                      mns_error *error);
 
 /* A host's framebuffer, drawn on with the usual perspective depth in [0, 1]. */
 typedef struct mns_target {
-    unsigned framebuffer;   /* GL name; 0: the default framebuffer. Single-sampled, with a depth buffer */
-    int x, y;               /* lower left corner of the view's rectangle in it, pixels */
-    double near, far;       /* clip planes of the host's projection, 0 < near < far; the rest of it is the view's */
+    unsigned framebuffer; /* GL name; 0: the default framebuffer. Single-sampled, with a depth buffer */
+    int x, y;             /* lower left corner of the view's rectangle in it, pixels */
+    double near, far; /* clip planes of the host's projection, 0 < near < far; the rest of it is the view's */
 } mns_target;
 
-/* As mns_renderer_draw, then draws the surface into the host's framebuffer, tested against the depth that is there and
- * writing its own; where the host drew nearer, the lists are clipped by it, as by core depth (Szecsi & Illes 2012, section
- * 5, "Lay down depth"). Background pixels are left as they are. Errors: as mns_renderer_draw. */
+/* As mns_renderer_draw, then draws the surface into the host's framebuffer, tested against the depth that is
+ * there and writing its own; where the host drew nearer, the lists are clipped by it, as by core depth
+ * (Szecsi & Illes 2012, section 5, "Lay down depth"). Background pixels are left as they are. Errors: as
+ * mns_renderer_draw. */
 MNS_API mns_status mns_renderer_draw_on(mns_renderer *renderer, const mns_field *field, const mns_view *view,
-                                        const mns_look *look, const mns_options *options, const mns_target *target,
-                                        mns_frame *frame, mns_error *error);
+                                        const mns_look *look, const mns_options *options,
+                                        const mns_target *target, mns_frame *frame, mns_error *error);
 
 typedef enum mns_phase { /* of mns_stats.ms; the total is apart */
-    MNS_PHASE_SORT = 0,
-    MNS_PHASE_BIN,
-    MNS_PHASE_UPLOAD,
-    MNS_PHASE_CORE_DEPTH,
-    MNS_PHASE_GATHER,
-    MNS_PHASE_BUILD,
-    MNS_PHASE_CAST,
-    MNS_PHASE_NORMAL,
-    MNS_PHASE_TRACE,
-    MNS_PHASE_SHADE,
-    MNS_PHASE_READBACK,
-    MNS_PHASE_COUNT
+                         MNS_PHASE_SORT = 0,
+                         MNS_PHASE_BIN,
+                         MNS_PHASE_UPLOAD,
+                         MNS_PHASE_CORE_DEPTH,
+                         MNS_PHASE_GATHER,
+                         MNS_PHASE_BUILD,
+                         MNS_PHASE_CAST,
+                         MNS_PHASE_NORMAL,
+                         MNS_PHASE_TRACE,
+                         MNS_PHASE_SHADE,
+                         MNS_PHASE_READBACK,
+                         MNS_PHASE_COUNT
 } mns_phase;
 
 MNS_API const char *mns_phase_name(mns_phase phase);
@@ -350,17 +376,18 @@ typedef struct mns_stats {
     uint64_t list_nodes;        /* fragments gathered */
     double list_mean, list_p99; /* nodes a non-empty pixel */
     uint64_t list_max;
-    uint64_t tiles;             /* parts the frame was drawn in */
-    struct {                    /* each counts what took a slower path, and still came out right */
-        uint64_t pool_grown;       /* node pool enlarged and gathered again */
-        uint64_t tiled;            /* frame cut up because the pool would pass the driver's block limit */
-        uint64_t lists_sorted;     /* times that lists came out of order and were sorted */
-        uint64_t active_overflow;  /* pixels whose active set outgrew the slots */
-        uint64_t root_cap;         /* pixels whose root search hit its cap */
-        uint64_t undecided_float;  /* pixels that float could not decide, solved again in double */
+    uint64_t tiles;               /* parts the frame was drawn in */
+    struct {                      /* each counts what took a slower path, and still came out right */
+        uint64_t pool_grown;      /* node pool enlarged and gathered again */
+        uint64_t tiled;           /* frame cut up because the pool would pass the driver's block limit */
+        uint64_t lists_sorted;    /* times that lists came out of order and were sorted */
+        uint64_t active_overflow; /* pixels whose active set outgrew the slots */
+        uint64_t root_cap;        /* pixels whose root search hit its cap */
+        uint64_t undecided_float; /* pixels that float could not decide, solved again in double */
     } fallbacks;
-    uint64_t programs, passes, buffers; /* made for this frame's plan: compiled programs, passes run, buffers held */
-    double color_range[2];      /* legend: what the ends of the colour map stand for; 0,0 without */
+    uint64_t programs, passes,
+        buffers;           /* made for this frame's plan: compiled programs, passes run, buffers held */
+    double color_range[2]; /* legend: what the ends of the colour map stand for; 0,0 without */
     const char *color_by, *color_map; /* "" without */
 } mns_stats;
 
@@ -368,21 +395,25 @@ typedef struct mns_stats {
 MNS_API const mns_stats *mns_frame_stats(const mns_frame *frame);
 MNS_API const mns_plan *mns_frame_plan(const mns_frame *frame);
 
-typedef enum mns_plane { /* GL textures of a frame; a host may sample them */
-    MNS_PLANE_COLOR = 0, /* RGBA32F, linear, premultiplied */
-    MNS_PLANE_DEPTH,     /* RG32F: t and its low word, +inf on a miss (t is the distance from the eye along the unit ray) */
-    MNS_PLANE_NORMAL,    /* RGBA32F: outward normal, and w: 1 certain, 0 undecided; 0,0,0 on a miss */
+typedef enum mns_plane {                      /* GL textures of a frame; a host may sample them */
+                         MNS_PLANE_COLOR = 0, /* RGBA32F, linear, premultiplied */
+                         MNS_PLANE_DEPTH, /* RG32F: t and its low word, +inf on a miss (t is the distance from
+                                             the eye along the unit ray) */
+                         MNS_PLANE_NORMAL, /* RGBA32F: outward normal, and w: 1 certain, 0 undecided; 0,0,0 on
+                                              a miss */
 } mns_plane;
 
 /* The GL name of a plane's texture; row 0 is the bottom. 0 before the first draw. */
 MNS_API unsigned mns_frame_texture(const mns_frame *frame, mns_plane plane);
 
-/* ---- Images ------------------------------------------------------------------------------------------------- */
+/* ---- Images
+ * ------------------------------------------------------------------------------------------------- */
 
-/* Planes read back. Row 0 is the top, pixels row by row; every array is width * height (x 4 for rgba, x 3 for normal). */
+/* Planes read back. Row 0 is the top, pixels row by row; every array is width * height (x 4 for rgba, x 3 for
+ * normal). */
 typedef struct mns_image {
     int width, height;
-    float *rgba;    /* linear, premultiplied by alpha */
+    float *rgba;     /* linear, premultiplied by alpha */
     float *t, *t_lo; /* distance; t + t_lo is it to more than a float; +inf and 0 on a miss */
     float *normal;
     float *certain; /* 1, or 0 where undecided */
@@ -391,13 +422,15 @@ typedef struct mns_image {
 /* Reads a frame's planes. Errors: USAGE (not drawn yet), MEMORY, GL. */
 MNS_API mns_status mns_frame_read(mns_frame *frame, mns_image **image, mns_error *error);
 MNS_API void mns_image_destroy(mns_image *image);
-/* Writes an image: .png (8-bit sRGB with alpha where any pixel is not opaque) or .exr (float32 R G B A, t, t.lo, N.X, N.Y,
- * N.Z, certain, ZIP-compressed), written beside the name and renamed. Errors: USAGE (unknown ending), IO, MEMORY. */
+/* Writes an image: .png (8-bit sRGB with alpha where any pixel is not opaque) or .exr (float32 R G B A, t,
+ * t.lo, N.X, N.Y, N.Z, certain, ZIP-compressed), written beside the name and renamed. Errors: USAGE (unknown
+ * ending), IO, MEMORY. */
 MNS_API mns_status mns_image_write(const mns_image *image, const char *path, mns_error *error);
 /* Reads back an .exr that mns_image_write wrote. Errors: IO, INPUT, MEMORY. */
 MNS_API mns_status mns_image_read(const char *path, mns_image **image, mns_error *error);
 
-/* ---- Scene files --------------------------------------------------------------------------------------------- */
+/* ---- Scene files
+ * --------------------------------------------------------------------------------------------- */
 
 typedef struct mns_scene {
     const char *const *inputs; /* names for mns_input_open, relative ones resolved beside the scene file */
@@ -407,8 +440,8 @@ typedef struct mns_scene {
     mns_look look;
 } mns_scene;
 
-/* Loads a JSON scene; keys: README.md. Errors: IO, INPUT (syntax with line and column; an unknown key or a wrong type with its
- * path, "light.kind"), MEMORY. */
+/* Loads a JSON scene; keys: README.md. Errors: IO, INPUT (syntax with line and column; an unknown key or a
+ * wrong type with its path, "light.kind"), MEMORY. */
 MNS_API mns_status mns_scene_load(const char *path, mns_scene **scene, mns_error *error);
 MNS_API void mns_scene_destroy(mns_scene *scene);
 

@@ -63,7 +63,7 @@ mns_status parse_whole(const char *option, const char *text, long low, long high
 
 mns_status parse_count(const char *option, const char *text, int high, int *value, mns_error *error)
 {
-    long whole;
+    long whole = 0;
     mns_status status = parse_whole(option, text, 1, high, &whole, error);
     if (!status) *value = (int)whole;
     return status;

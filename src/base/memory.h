@@ -5,7 +5,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* `count` elements of `size` bytes, uninitialised; NULL on failure or overflow. count 0 gives a unique pointer. */
+/* `count` elements of `size` bytes, uninitialised; NULL on failure or overflow. count 0 gives a unique
+ * pointer. */
 static inline void *memory_array(size_t count, size_t size)
 {
     if (size && count > SIZE_MAX / size) return NULL;

@@ -18,5 +18,6 @@ mns_status status_fail(mns_error *error, mns_status status, const char *format, 
 
 mns_status status_no_memory(mns_error *error, const char *what)
 {
-    return status_fail(error, MNS_ERROR_MEMORY, "out of memory %s; try fewer particles or a smaller frame", what);
+    return status_fail(error, MNS_ERROR_MEMORY, "out of memory %s; try fewer particles or a smaller frame",
+                       what);
 }

@@ -5,8 +5,8 @@
 #include "meniscus.h"
 
 /* Fills *error (which may be NULL) with a formatted line and returns `status`, so that a caller can
- * `return status_fail(error, MNS_ERROR_INPUT, "%s:%zu: expected ...", ...);`. Newlines and control bytes in the
- * formatted text become '?', so that bytes quoted from a bad file cannot break the line. */
+ * `return status_fail(error, MNS_ERROR_INPUT, "%s:%zu: expected ...", ...);`. Newlines and control bytes in
+ * the formatted text become '?', so that bytes quoted from a bad file cannot break the line. */
 mns_status status_fail(mns_error *error, mns_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

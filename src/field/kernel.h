@@ -9,8 +9,8 @@
 #define DENSITY_FN static inline __attribute__((unused))
 #define NUM(x)     ((REAL)(x))
 
-#define REAL                    double
-#define min                     fmin
+#define REAL double
+#define min  fmin
 #include "density.glsl"
 #undef min
 #undef REAL

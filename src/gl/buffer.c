@@ -7,8 +7,8 @@ mns_status gl_buffer_reserve(gl_device *device, gl_buffer *buffer, const char *w
 {
     const GladGLContext *gl = &device->gl;
     if (most && size > most)
-        return status_fail(error, MNS_ERROR_UNSUPPORTED, "%s: %zu bytes are needed, this driver's blocks hold %zu", what,
-                           size, most);
+        return status_fail(error, MNS_ERROR_UNSUPPORTED,
+                           "%s: %zu bytes are needed, this driver's blocks hold %zu", what, size, most);
     if (buffer->id && buffer->size >= size) return MNS_OK;
     size_t wanted = size + size / 4;
     if (most && wanted > most) wanted = most;
@@ -33,7 +33,8 @@ mns_status gl_buffer_map(gl_device *device, gl_buffer *buffer, size_t size, void
 {
     const GladGLContext *gl = &device->gl;
     gl->BindBuffer(GL_ARRAY_BUFFER, buffer->id);
-    *data = gl->MapBufferRange(GL_ARRAY_BUFFER, 0, (GLsizeiptr)size, GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+    *data = gl->MapBufferRange(GL_ARRAY_BUFFER, 0, (GLsizeiptr)size,
+                               GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
     gl->BindBuffer(GL_ARRAY_BUFFER, 0);
     return *data ? MNS_OK : status_no_memory(error, "while mapping a buffer");
 }

@@ -9,8 +9,8 @@ typedef struct gl_buffer {
     size_t size;
 } gl_buffer;
 
-/* At least `size` bytes, contents lost when it grows. Grows by a quarter more than asked, up to `most` bytes (0: no bound).
- * Errors: MEMORY, UNSUPPORTED (size > most). */
+/* At least `size` bytes, contents lost when it grows. Grows by a quarter more than asked, up to `most` bytes
+ * (0: no bound). Errors: MEMORY, UNSUPPORTED (size > most). */
 mns_status gl_buffer_reserve(gl_device *device, gl_buffer *buffer, const char *what, size_t size, size_t most,
                              mns_error *error);
 void gl_buffer_free(gl_device *device, gl_buffer *buffer);

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static void on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length, const GLchar *message,
-                       const void *user)
+static void on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                       const GLchar *message, const void *user)
 {
     (void)source, (void)id, (void)length;
     /* Performance hints are the driver's opinion, not a fault of ours. */
@@ -53,14 +53,17 @@ static void listen(gl_device *device, bool on)
 mns_status gl_device_open(gl_device *device, mns_get_proc get_proc, mns_error *error)
 {
     memset(device, 0, sizeof *device);
-    if (!get_proc) return status_fail(error, MNS_ERROR_USAGE, "renderer: get_proc is NULL; pass the context's own");
+    if (!get_proc)
+        return status_fail(error, MNS_ERROR_USAGE, "renderer: get_proc is NULL; pass the context's own");
     int version = gladLoadGLContext(&device->gl, (GLADloadfunc)get_proc);
     if (!version)
-        return status_fail(error, MNS_ERROR_GL, "renderer: no OpenGL functions found; is a context current on this thread?");
+        return status_fail(error, MNS_ERROR_GL,
+                           "renderer: no OpenGL functions found; is a context current on this thread?");
     int major = GLAD_VERSION_MAJOR(version), minor = GLAD_VERSION_MINOR(version);
     if (major < 4 || (major == 4 && minor < 3))
-        return status_fail(error, MNS_ERROR_GL, "renderer: the context offers OpenGL %d.%d; make one of at least 4.3 core",
-                           major, minor);
+        return status_fail(error, MNS_ERROR_GL,
+                           "renderer: the context offers OpenGL %d.%d; make one of at least 4.3 core", major,
+                           minor);
     const char *renderer = (const char *)device->gl.GetString(GL_RENDERER);
     const char *text = (const char *)device->gl.GetString(GL_VERSION);
     snprintf(device->name, sizeof device->name, "%s, %s", renderer ? renderer : "?", text ? text : "?");
@@ -78,10 +81,10 @@ mns_status gl_check(gl_device *device, const char *where, mns_error *error)
 {
     GLenum code = device->gl.GetError();
     if (code == GL_NO_ERROR) return MNS_OK;
-    while (device->gl.GetError() != GL_NO_ERROR) {
-    }
+    while (device->gl.GetError() != GL_NO_ERROR) {}
     if (code == GL_OUT_OF_MEMORY)
-        return status_fail(error, MNS_ERROR_MEMORY, "%s: the driver is out of memory; try a smaller frame", where);
+        return status_fail(error, MNS_ERROR_MEMORY, "%s: the driver is out of memory; try a smaller frame",
+                           where);
     return status_fail(error, MNS_ERROR_GL, "%s: GL error 0x%04x (%s) from %s", where, code,
                        device->last_message[0] ? device->last_message : "no debug message", device->name);
 }

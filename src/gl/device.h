@@ -9,8 +9,8 @@
 typedef struct gl_device {
     GladGLContext gl;
     mns_limits limits;
-    char name[256];         /* renderer, version */
-    size_t messages;        /* of medium or high severity, from the driver's debug output */
+    char name[256];  /* renderer, version */
+    size_t messages; /* of medium or high severity, from the driver's debug output */
     char last_message[256];
 } gl_device;
 
@@ -20,7 +20,8 @@ mns_status gl_device_open(gl_device *device, mns_get_proc get_proc, mns_error *e
 /* Stops the debug output from reporting to `device`. */
 void gl_device_close(gl_device *device);
 
-/* GL with a first error pending in `error` when the driver reports one since the last call; `where` names the step. */
+/* GL with a first error pending in `error` when the driver reports one since the last call; `where` names the
+ * step. */
 mns_status gl_check(gl_device *device, const char *where, mns_error *error);
 
 #endif

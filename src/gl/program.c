@@ -70,8 +70,8 @@ char *glsl_assemble(const char *file, const char *defines)
     return t.data;
 }
 
-static mns_status compile(gl_device *device, GLuint program, GLenum stage, const char *file, const char *defines,
-                          mns_error *error)
+static mns_status compile(gl_device *device, GLuint program, GLenum stage, const char *file,
+                          const char *defines, mns_error *error)
 {
     const GladGLContext *gl = &device->gl;
     char *source = glsl_assemble(file, defines);
@@ -95,7 +95,8 @@ static mns_status build(gl_device *device, const gl_shader *shader, GLuint *id, 
     const GladGLContext *gl = &device->gl;
     GLuint program = gl->CreateProgram();
     mns_status status = MNS_OK;
-    if (shader->vertex) status = compile(device, program, GL_VERTEX_SHADER, shader->vertex, shader->defines, error);
+    if (shader->vertex)
+        status = compile(device, program, GL_VERTEX_SHADER, shader->vertex, shader->defines, error);
     if (!status && shader->fragment)
         status = compile(device, program, GL_FRAGMENT_SHADER, shader->fragment, shader->defines, error);
     if (!status && shader->compute)

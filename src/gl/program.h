@@ -1,4 +1,5 @@
-/* Shader variants: assembled from glsl/ by a block of #defines, compiled once, kept by what they were made of. */
+/* Shader variants: assembled from glsl/ by a block of #defines, compiled once, kept by what they were made
+ * of. */
 #ifndef MNS_GL_PROGRAM_H
 #define MNS_GL_PROGRAM_H
 
@@ -21,11 +22,12 @@ typedef struct gl_programs {
     size_t count;
 } gl_programs;
 
-/* The whole text of one stage: version, defines, the file with its #include lines replaced. Caller frees. NULL: out of memory or
- * no such file. */
+/* The whole text of one stage: version, defines, the file with its #include lines replaced. Caller frees.
+ * NULL: out of memory or no such file. */
 char *glsl_assemble(const char *file, const char *defines);
 
-/* The program of that shader, compiled when it is first asked for. Errors: GL (the compiler's first complaint), MEMORY. */
+/* The program of that shader, compiled when it is first asked for. Errors: GL (the compiler's first
+ * complaint), MEMORY. */
 mns_status gl_program_get(gl_device *device, gl_programs *programs, const gl_shader *shader, GLuint *id,
                           mns_error *error);
 void gl_programs_free(gl_device *device, gl_programs *programs);

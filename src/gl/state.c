@@ -1,16 +1,18 @@
 #include "gl/state.h"
 
 static const GLenum switches[STATE_SWITCHES] = {
-    GL_DEPTH_TEST,         GL_SCISSOR_TEST,      GL_BLEND,       GL_CULL_FACE,          GL_STENCIL_TEST,
+    GL_DEPTH_TEST,         GL_SCISSOR_TEST,       GL_BLEND,       GL_CULL_FACE,        GL_STENCIL_TEST,
     GL_PROGRAM_POINT_SIZE, GL_RASTERIZER_DISCARD, GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP,
 };
 
 static const GLenum blend_names[6] = {GL_BLEND_SRC_RGB,   GL_BLEND_DST_RGB,      GL_BLEND_SRC_ALPHA,
                                       GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA};
-static const GLenum image_names[6] = {GL_IMAGE_BINDING_NAME,  GL_IMAGE_BINDING_LEVEL,  GL_IMAGE_BINDING_LAYERED,
-                                      GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT};
+static const GLenum image_names[6] = {GL_IMAGE_BINDING_NAME,    GL_IMAGE_BINDING_LEVEL,
+                                      GL_IMAGE_BINDING_LAYERED, GL_IMAGE_BINDING_LAYER,
+                                      GL_IMAGE_BINDING_ACCESS,  GL_IMAGE_BINDING_FORMAT};
 
-static void take_indexed(const GladGLContext *gl, gl_indexed *to, GLenum buffer, GLenum start, GLenum size, GLuint at)
+static void take_indexed(const GladGLContext *gl, gl_indexed *to, GLenum buffer, GLenum start, GLenum size,
+                         GLuint at)
 {
     gl->GetIntegeri_v(buffer, at, &to->buffer);
     gl->GetInteger64i_v(start, at, &to->start);
@@ -49,8 +51,8 @@ static void take_bindings(const GladGLContext *gl, gl_state *s)
         take_indexed(gl, &s->storage[i], GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
                      GL_SHADER_STORAGE_BUFFER_SIZE, i);
     for (GLuint i = 0; i < STATE_UNIFORMS; i++)
-        take_indexed(gl, &s->uniforms[i], GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE,
-                     i);
+        take_indexed(gl, &s->uniforms[i], GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START,
+                     GL_UNIFORM_BUFFER_SIZE, i);
     take_indexed(gl, &s->counter, GL_ATOMIC_COUNTER_BUFFER_BINDING, GL_ATOMIC_COUNTER_BUFFER_START,
                  GL_ATOMIC_COUNTER_BUFFER_SIZE, 0);
     for (GLuint i = 0; i < STATE_IMAGES; i++)
@@ -105,7 +107,8 @@ static void put_bindings(const GladGLContext *gl, const gl_state *s)
     for (GLuint i = 0; i < STATE_IMAGES; i++) {
         const GLint *image = s->image[i];
         GLenum format = image[5] ? (GLenum)image[5] : GL_R32UI;
-        gl->BindImageTexture(i, (GLuint)image[0], image[1], (GLboolean)image[2], image[3], (GLenum)image[4], format);
+        gl->BindImageTexture(i, (GLuint)image[0], image[1], (GLboolean)image[2], image[3], (GLenum)image[4],
+                             format);
     }
     gl->BindBuffer(GL_ARRAY_BUFFER, (GLuint)s->array_buffer);
     gl->BindBuffer(GL_UNIFORM_BUFFER, (GLuint)s->uniform_buffer);

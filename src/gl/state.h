@@ -21,7 +21,8 @@ typedef struct gl_state {
     GLboolean depth_mask, color_mask[4], switches[STATE_SWITCHES];
 } gl_state;
 
-/* Saves the state and sets what the passes count on: all switches off, colour writes on, no sampler objects. */
+/* Saves the state and sets what the passes count on: all switches off, colour writes on, no sampler objects.
+ */
 void gl_state_take(gl_device *device, gl_state *state);
 void gl_state_put_back(gl_device *device, const gl_state *state);
 

@@ -190,7 +190,7 @@ static mns_status read_image(image_reader *reader, mns_image **image)
 {
     image_channel channels[IMAGE_CHANNELS];
     const mns_image names_only = {0};
-    int width, height;
+    int width = 0, height = 0;
     mns_image *made = NULL;
     mns_status status = open_file(reader);
     if (status == MNS_OK) status = read_header(reader);

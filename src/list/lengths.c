@@ -14,7 +14,8 @@ static uint32_t walk(uint32_t head, const uint32_t *nodes, size_t count)
     return length;
 }
 
-bool list_lengths_add(list_lengths *lengths, list_passes *p, gl_device *device, list_region region, size_t nodes)
+bool list_lengths_add(list_lengths *lengths, list_passes *p, gl_device *device, list_region region,
+                      size_t nodes)
 {
     const GladGLContext *gl = &device->gl;
     size_t pixels = (size_t)region.width * (size_t)region.height;
@@ -24,7 +25,8 @@ bool list_lengths_add(list_lengths *lengths, list_passes *p, gl_device *device, 
     bool good = larger && head && pool;
     if (good) {
         gl->BindFramebuffer(GL_READ_FRAMEBUFFER, p->heads_target);
-        gl->ReadPixels(region.x, region.y, region.width, region.height, GL_RED_INTEGER, GL_UNSIGNED_INT, head);
+        gl->ReadPixels(region.x, region.y, region.width, region.height, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                       head);
         gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->nodes.id);
         gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, (GLsizeiptr)(nodes * LIST_NODE), pool);
         for (size_t i = 0; i < pixels; i++) {
@@ -51,7 +53,8 @@ void list_lengths_finish(list_lengths *lengths, mns_stats *stats)
         qsort(lengths->length, count, sizeof *lengths->length, ascending);
         for (size_t i = 0; i < count; i++) sum += lengths->length[i];
         stats->list_mean = (double)sum / (double)count;
-        stats->list_p99 = lengths->length[(count - 1) * 99 / 100];
+        size_t last_but_1_percent = (count - 1) * 99 / 100;
+        stats->list_p99 = lengths->length[last_but_1_percent];
         stats->list_max = lengths->length[count - 1];
     }
     free(lengths->length);

@@ -8,8 +8,8 @@ static void texture_make(gl_device *device, GLuint *texture, GLenum format, int 
     if (!*texture) gl->GenTextures(1, texture);
     gl->BindTexture(GL_TEXTURE_2D, *texture);
     bool integer = format == GL_R32UI;
-    gl->TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0, integer ? GL_RED_INTEGER : GL_DEPTH_COMPONENT,
-                   integer ? GL_UNSIGNED_INT : GL_FLOAT, NULL);
+    gl->TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, width, height, 0,
+                   integer ? GL_RED_INTEGER : GL_DEPTH_COMPONENT, integer ? GL_UNSIGNED_INT : GL_FLOAT, NULL);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     gl->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
@@ -60,7 +60,8 @@ static mns_status buffers(list_passes *p, gl_device *device, const mns_plan *pla
         if (status) return status;
     }
     if (!(plan->features & FEATURE_FAR)) return MNS_OK;
-    return gl_buffer_reserve(device, &p->far_block, "far view", FAR_VECTORS * 4 * sizeof(double), block, error);
+    return gl_buffer_reserve(device, &p->far_block, "far view", FAR_VECTORS * 4 * sizeof(double), block,
+                             error);
 }
 
 mns_status list_passes_prepare(list_passes *p, gl_device *device, const mns_plan *plan, mns_error *error)
@@ -79,20 +80,21 @@ mns_status list_passes_prepare(list_passes *p, gl_device *device, const mns_plan
         target_make(device, &p->depth_target, GL_DEPTH_ATTACHMENT, p->core_depth);
     }
     if (resized || !p->bare_target) target_make_bare(device, &p->bare_target, width, height);
-    if (host && (resized || !p->host_depth)) texture_make(device, &p->host_depth, GL_DEPTH_COMPONENT32F, width, height);
+    if (host && (resized || !p->host_depth))
+        texture_make(device, &p->host_depth, GL_DEPTH_COMPONENT32F, width, height);
     p->width = width;
     p->height = height;
     mns_status status = buffers(p, device, plan, error);
-    p->node_capacity = p->nodes.size / LIST_NODE < plan->pool_most ? p->nodes.size / LIST_NODE : plan->pool_most;
+    p->node_capacity =
+        p->nodes.size / LIST_NODE < plan->pool_most ? p->nodes.size / LIST_NODE : plan->pool_most;
     return status ? status : gl_check(device, "list buffers", error);
 }
 
 void list_passes_free(list_passes *p, gl_device *device)
 {
     const GladGLContext *gl = &device->gl;
-    gl_buffer *all[] = {&p->balls,   &p->balls_low, &p->cores, &p->colors,    &p->nodes,
-                        &p->counter, &p->redo,      &p->view,  &p->view_wide, &p->far_block,
-                        &p->backwards};
+    gl_buffer *all[] = {&p->balls, &p->balls_low, &p->cores,     &p->colors,    &p->nodes,    &p->counter,
+                        &p->redo,  &p->view,      &p->view_wide, &p->far_block, &p->backwards};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) gl_buffer_free(device, all[i]);
     GLuint textures[] = {p->heads, p->core_depth, p->host_depth, p->ball_texels, p->node_texels};
     GLuint targets[] = {p->heads_target, p->depth_target, p->bare_target};

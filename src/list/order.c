@@ -11,7 +11,7 @@ typedef struct cull {
     view_frame frame;
     vec3 origin;
     double plane_depth;
-    double tan_x, tan_y;  /* of the half angles, a pixel wider than the frame: samples are jittered */
+    double tan_x, tan_y;   /* of the half angles, a pixel wider than the frame: samples are jittered */
     double side_x, side_y; /* length of the side planes' normals */
     double pixels;         /* a unit across at depth 1 */
     double most_point;     /* largest diameter of a point in pixels */
@@ -38,17 +38,20 @@ static uint32_t sortable(float value)
     return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
 }
 
-/* Whether the ball can touch the view; if so *key is its effective distance, and *point whether a point can hold it. */
+/* Whether the ball can touch the view; if so *key is its effective distance, and *point whether a point can
+ * hold it. */
 static bool cull_ball(const cull *c, vec3 at, double radius, uint32_t *key, bool *point)
 {
     vec3 d = vec3_sub(at, c->frame.eye);
     double x = fabs(vec3_dot(d, c->frame.right)), y = fabs(vec3_dot(d, c->frame.up));
     double z = vec3_dot(d, c->frame.forward);
     double cover = radius * (1 + 1e-6);
-    if (z <= -cover || x - z * c->tan_x > cover * c->side_x || y - z * c->tan_y > cover * c->side_y) return false;
+    if (z <= -cover || x - z * c->tan_x > cover * c->side_x || y - z * c->tan_y > cover * c->side_y)
+        return false;
     double away = vec3_length(d), square = (z - radius) * (z + radius), widest = x > y ? x : y;
     /* Diameter of the projection: between the tangents from the eye. */
-    *point = z > 1.01 * radius && 2.001 * c->pixels * radius * sqrt(widest * widest + square) < square * c->most_point;
+    *point = z > 1.01 * radius &&
+             2.001 * c->pixels * radius * sqrt(widest * widest + square) < square * c->most_point;
     double far_part = c->plane_depth > 0 ? away - c->plane_depth : away;
     *key = sortable((float)(far_part - radius));
     return true;

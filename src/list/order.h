@@ -4,30 +4,33 @@
 
 #include "plan/plan.h"
 
-/* A ball as it goes to the GPU: position relative to the plan's origin, in two floats, and where it stands in the field. */
+/* A ball as it goes to the GPU: position relative to the plan's origin, in two floats, and where it stands in
+ * the field. */
 typedef struct list_ball {
     float position[3];
     uint32_t index;
 } list_ball;
 
 typedef struct list_order {
-    list_ball *ball;   /* in view, in the order of the field */
-    uint64_t *key;     /* sorted: effective distance in the upper half, place in `ball` in the lower */
+    list_ball *ball; /* in view, in the order of the field */
+    uint64_t *key;   /* sorted: effective distance in the upper half, place in `ball` in the lower */
     uint64_t *scratch;
-    uint32_t *digits;  /* counts of the sort */
+    uint32_t *digits; /* counts of the sort */
     size_t capacity;
-    size_t count;      /* balls in view */
-    size_t quads;      /* of them in order, up to the last that is too large for a point: all drawn as rectangles */
+    size_t count; /* balls in view */
+    size_t
+        quads; /* of them in order, up to the last that is too large for a point: all drawn as rectangles */
 } list_order;
 
-/* Culls what is outside the view, sorts the rest ascending by |p - e| - R, ties by index. Parallel, the same result for any number of threads. Errors: MEMORY. */
+/* Culls what is outside the view, sorts the rest ascending by |p - e| - R, ties by index. Parallel, the same
+ * result for any number of threads. Errors: MEMORY. */
 mns_status list_order_make(list_order *order, const mns_field *field, const mns_plan *plan, mns_error *error);
 void list_order_free(list_order *order);
 
 enum { RADIX_BITS = 11, RADIX_DIGITS = 1 << RADIX_BITS, RADIX_THREADS = 32 };
 
-/* Sorts `key` by the upper 32 bits, stably, in three passes; the result is in `key`. scratch: count keys; digits: RADIX_THREADS
- * x RADIX_DIGITS counts. */
+/* Sorts `key` by the upper 32 bits, stably, in three passes; the result is in `key`. scratch: count keys;
+ * digits: RADIX_THREADS x RADIX_DIGITS counts. */
 void list_radix_sort(uint64_t *key, uint64_t *scratch, uint32_t *digits, size_t count);
 
 #endif

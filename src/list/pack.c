@@ -10,7 +10,8 @@ static const list_ball *ball_at(const list_order *order, size_t place)
     return &order->ball[(uint32_t)order->key[place]];
 }
 
-/* A double as the float nearest to it, forced through memory: one compiler kept the wider value in a register. */
+/* A double as the float nearest to it, forced through memory: one compiler kept the wider value in a
+ * register. */
 static float rounded(double value)
 {
     volatile float f = (float)value;
@@ -30,7 +31,8 @@ void list_pack_high(const list_order *order, const mns_field *field, const mns_p
         if (strengths) to[stride - 1] = (float)field->p.strength[ball->index];
     }
     for (size_t i = 0; i < order->quads; i++)
-        memcpy(out + (order->count + i) * stride, out + (order->quads - 1 - i) * stride, stride * sizeof *out);
+        memcpy(out + (order->count + i) * stride, out + (order->quads - 1 - i) * stride,
+               stride * sizeof *out);
 }
 
 void list_pack_low(const list_order *order, const mns_field *field, const mns_plan *plan, float *out)

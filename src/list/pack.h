@@ -4,7 +4,8 @@
 
 #include "list/order.h"
 
-/* x y z [R] [q] as floats, plan->ball_floats a ball, in order; after them the order's `quads` once more, in reverse. */
+/* x y z [R] [q] as floats, plan->ball_floats a ball, in order; after them the order's `quads` once more, in
+ * reverse. */
 void list_pack_high(const list_order *order, const mns_field *field, const mns_plan *plan, float *out);
 /* What those floats left over of the doubles, in the same form. */
 void list_pack_low(const list_order *order, const mns_field *field, const mns_plan *plan, float *out);

@@ -27,7 +27,8 @@ static void attributes(list_passes *p, gl_device *device, const mns_plan *plan, 
     gl->VertexAttribDivisor(0, instanced);
     if (plan->features & FEATURE_RADII) {
         gl->EnableVertexAttribArray(1);
-        gl->VertexAttribPointer(1, 1, GL_FLOAT, GL_FALSE, (GLsizei)stride, (const void *)(at + 3 * sizeof(float)));
+        gl->VertexAttribPointer(1, 1, GL_FLOAT, GL_FALSE, (GLsizei)stride,
+                                (const void *)(at + 3 * sizeof(float)));
         gl->VertexAttribDivisor(1, instanced);
     } else {
         gl->DisableVertexAttribArray(1);
@@ -61,8 +62,8 @@ static void draw_points(list_passes *p, gl_device *device, const mns_plan *plan,
 }
 
 /* Every ball in view as its rectangle or point: for the core pass, then for gather, which counts nodes. */
-static void draw_balls(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order, GLuint quads,
-                       GLuint points, bool gather)
+static void draw_balls(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
+                       GLuint quads, GLuint points, bool gather)
 {
     const GladGLContext *gl = &device->gl;
     bool some_points = order->count > order->quads;
@@ -147,7 +148,8 @@ size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, cons
     gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     draw_balls(p, device, plan, order, program[SHADER_GATHER_QUADS], program[SHADER_GATHER_POINTS], true);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                      GL_ATOMIC_COUNTER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+                      GL_ATOMIC_COUNTER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
+                      GL_TEXTURE_FETCH_BARRIER_BIT);
     GLuint wanted = 0;
     gl->GetBufferSubData(GL_ATOMIC_COUNTER_BUFFER, 0, sizeof wanted, &wanted);
     gl->Disable(GL_DEPTH_TEST);
@@ -240,8 +242,8 @@ static void dispatch_resolve(list_passes *p, gl_device *device, list_counts *cou
     gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, offsetof(list_counts, unfinished), sizeof zero, &zero);
     gl->DispatchCompute((counts->redo + RESOLVE_GROUP - 1) / RESOLVE_GROUP, 1, 1);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                      GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT |
-                      GL_TEXTURE_UPDATE_BARRIER_BIT);
+                      GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
+                      GL_PIXEL_BUFFER_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     read_counts(p, device, counts);
 }
 

@@ -18,9 +18,9 @@ typedef struct list_counts {
 /* The GL objects of the list method; zeroed is empty. Textures are of the frame's size. */
 typedef struct list_passes {
     gl_buffer balls, balls_low, cores, colors, nodes, counter, redo, view, view_wide, far_block;
-    gl_buffer backwards;                  /* n - 1, ..., 1, 0 */
-    GLuint heads, core_depth, host_depth; /* textures */
-    GLuint ball_texels, node_texels;      /* buffer textures (TEXELS) */
+    gl_buffer backwards;                            /* n - 1, ..., 1, 0 */
+    GLuint heads, core_depth, host_depth;           /* textures */
+    GLuint ball_texels, node_texels;                /* buffer textures (TEXELS) */
     GLuint heads_target, depth_target, bare_target; /* framebuffers */
     GLuint vertex_array;
     int width, height;
@@ -39,8 +39,8 @@ mns_status list_passes_compile(gl_device *device, gl_programs *programs, const m
 void list_core_depth(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
                      const GLuint program[SHADER_COUNT], list_region region);
 
-/* Gathers the lists of a region. Returns the nodes wanted, the one that ends every list included; where that is more than
- * the pool holds, gather again. */
+/* Gathers the lists of a region. Returns the nodes wanted, the one that ends every list included; where that
+ * is more than the pool holds, gather again. */
 size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
                    const GLuint program[SHADER_COUNT], list_region region);
 
@@ -54,8 +54,8 @@ void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const
 void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],
                GLuint target, list_region region, list_counts *counts);
 
-/* Takes the redo list's entries on by `program`, in float or in doubles (which need balls_low), until none is unfinished, into the
- * planes' textures (t, normal, color or 0). */
+/* Takes the redo list's entries on by `program`, in float or in doubles (which need balls_low), until none is
+ * unfinished, into the planes' textures (t, normal, color or 0). */
 void list_resolve(list_passes *p, gl_device *device, const mns_plan *plan, GLuint program, bool wide,
                   const GLuint plane[3], list_counts *counts);
 

@@ -3,9 +3,10 @@
 #include <omp.h>
 #include <string.h>
 
-/* One stable counting pass: each thread counts its own stretch, the counts are summed digit by digit over the threads in order,
- * and each thread moves its stretch. */
-static void radix_pass(const uint64_t *from, uint64_t *to, size_t count, int shift, uint32_t *digits, int threads)
+/* One stable counting pass: each thread counts its own stretch, the counts are summed digit by digit over the
+ * threads in order, and each thread moves its stretch. */
+static void radix_pass(const uint64_t *from, uint64_t *to, size_t count, int shift, uint32_t *digits,
+                       int threads)
 {
 #pragma omp parallel num_threads(threads)
     {

@@ -6,7 +6,8 @@ static void put(double *block, int at, vec3 v, double w)
     block[4 * at + 3] = w;
 }
 
-/* The raw direction through GL's pixel (0, 0), the lower left corner, and its change a pixel; forward component 1. */
+/* The raw direction through GL's pixel (0, 0), the lower left corner, and its change a pixel; forward
+ * component 1. */
 static void raw_direction(const view_frame *f, vec3 *corner, vec3 *step_x, vec3 *step_y)
 {
     double unit = 2 * f->tan_half / f->height;
@@ -16,8 +17,8 @@ static void raw_direction(const view_frame *f, vec3 *corner, vec3 *step_x, vec3 
     *corner = vec3_along(*corner, -0.5 * f->height, *step_y);
 }
 
-void list_view_block(const mns_plan *plan, const mns_field *field, const double jitter[2], const mns_target *host,
-                     double wide[VIEW_VECTORS * 4], float narrow[VIEW_VECTORS * 4])
+void list_view_block(const mns_plan *plan, const mns_field *field, const double jitter[2],
+                     const mns_target *host, double wide[VIEW_VECTORS * 4], float narrow[VIEW_VECTORS * 4])
 {
     const view_frame *f = &plan->frame;
     vec3 corner, step_x, step_y, eye = vec3_sub(f->eye, vec3_load(plan->origin));
@@ -38,7 +39,8 @@ void list_view_block(const mns_plan *plan, const mns_field *field, const double 
     put(wide, 10, (vec3){1 / plan->depth_range, depth, jitter[0]}, jitter[1]);
     put(wide, 11, (vec3){field->iso, radius, radius > 0 ? 1 / (radius * radius) : 0}, plan->reach);
     put(wide, 12, (vec3){plan->core_ratio, radius > 0 ? 1 / radius : 0, 2}, 0);
-    put(wide, 13, (vec3){host ? host->near : 0, host ? host->far : 1, host ? host->x : 0}, host ? host->y : 0);
+    put(wide, 13, (vec3){host ? host->near : 0, host ? host->far : 1, host ? host->x : 0},
+        host ? host->y : 0);
     for (int i = 0; i < VIEW_VECTORS * 4; i++) narrow[i] = (float)wide[i];
 }
 

@@ -7,7 +7,8 @@ static void sum_at_eye(const mns_field *field, vec3 eye, plan_facts *facts)
     double value = 0;
     int inside = 0;
     const double *x = field->p.axis[0], *y = field->p.axis[1], *z = field->p.axis[2];
-    /* One thread adds: the sum's bits decide which side the eye is on, and must not hang on the number of threads. */
+    /* One thread adds: the sum's bits decide which side the eye is on, and must not hang on the number of
+     * threads. */
     for (size_t i = 0; i < field->p.count; i++) {
         double r = field_radius(field, i);
         double dx = (x[i] - eye.x) / r, dy = (y[i] - eye.y) / r, dz = (z[i] - eye.z) / r;

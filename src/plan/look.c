@@ -12,7 +12,8 @@ static bool finite3(const double v[3])
 static mns_status check(const mns_look *look, mns_error *error)
 {
     if (look->light != MNS_LIGHT_HEAD && look->light != MNS_LIGHT_DIRECTIONAL)
-        return status_fail(error, MNS_ERROR_USAGE, "look: no light of kind %d; take head or directional", look->light);
+        return status_fail(error, MNS_ERROR_USAGE, "look: no light of kind %d; take head or directional",
+                           look->light);
     if (!finite3(look->light_direction))
         return status_fail(error, MNS_ERROR_USAGE, "look: the light's direction must be finite");
     if (look->shading != MNS_SHADING_SMOOTH && look->shading != MNS_SHADING_CEL)
@@ -24,7 +25,8 @@ static mns_status check(const mns_look *look, mns_error *error)
     double numbers[] = {look->ambient, look->diffuse, look->specular, look->shininess};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         if (!(numbers[i] >= 0) || !isfinite(numbers[i]))
-            return status_fail(error, MNS_ERROR_USAGE, "look: ambient, diffuse, specular and shininess must be 0 or more");
+            return status_fail(error, MNS_ERROR_USAGE,
+                               "look: ambient, diffuse, specular and shininess must be 0 or more");
     for (int i = 0; i < 4; i++) {
         double c = i < 3 ? look->color[i] : 0, b = look->background[i];
         if (!(c >= 0 && c <= 1 && b >= 0 && b <= 1))
@@ -43,7 +45,8 @@ static void resolve_defaults(mns_look *look)
     if (!(look->set & MNS_LOOK_SPECULAR)) look->specular = 0.25;
     if (look->shininess == 0) look->shininess = 40;
     if (look->cel_bands == 0) look->cel_bands = 3;
-    if (vec3_length(vec3_load(look->light_direction)) == 0) memcpy(look->light_direction, light, sizeof light);
+    if (vec3_length(vec3_load(look->light_direction)) == 0)
+        memcpy(look->light_direction, light, sizeof light);
 }
 
 /* The column to colour by: `color_by` is its name; "element" also finds a PDB's or XYZ's element column. */
@@ -65,9 +68,10 @@ static mns_status find_column(mns_plan *plan, const mns_field *field, mns_error 
     char known[200] = "";
     size_t used = 0;
     for (size_t i = 0; i < field->p.column_count && used + 40 < sizeof known; i++)
-        used += (size_t)snprintf(known + used, sizeof known - used, "%s%.32s", i ? ", " : "", field->p.column[i].name);
-    return status_fail(error, MNS_ERROR_USAGE, "look: no column \"%s\" to colour by; the input has %s", look->color_by,
-                       field->p.column_count ? known : "none");
+        used += (size_t)snprintf(known + used, sizeof known - used, "%s%.32s", i ? ", " : "",
+                                 field->p.column[i].name);
+    return status_fail(error, MNS_ERROR_USAGE, "look: no column \"%s\" to colour by; the input has %s",
+                       look->color_by, field->p.column_count ? known : "none");
 }
 
 mns_status plan_look(const mns_look *look, const mns_field *field, mns_plan *plan, mns_error *error)
@@ -76,7 +80,8 @@ mns_status plan_look(const mns_look *look, const mns_field *field, mns_plan *pla
     mns_status status = check(&plan->look, error);
     if (status) return status;
     resolve_defaults(&plan->look);
-    if (plan->look.color_by && plan->look.color_by[0] && field->p.count) status = find_column(plan, field, error);
+    if (plan->look.color_by && plan->look.color_by[0] && field->p.count)
+        status = find_column(plan, field, error);
     plan->look.color_by = NULL; /* was borrowed for the call */
     if (plan->look.shading == MNS_SHADING_CEL) plan->features |= FEATURE_CEL;
     if (plan->look.light == MNS_LIGHT_DIRECTIONAL) plan->features |= FEATURE_DIRECTIONAL;

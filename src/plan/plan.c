@@ -20,23 +20,27 @@ static const mns_limits least_limits = {
 
 static void leave_out(mns_plan *plan, const char *part, const char *reason)
 {
-    if (plan->left_out_count < PLAN_PARTS) plan->left_out[plan->left_out_count++] = (mns_left_out){part, reason};
+    if (plan->left_out_count < PLAN_PARTS)
+        plan->left_out[plan->left_out_count++] = (mns_left_out){part, reason};
 }
 
 static mns_status check_options(const mns_options *options, mns_error *error)
 {
     if (options->method != MNS_METHOD_AUTO && options->method != MNS_METHOD_LIST)
-        return status_fail(error, MNS_ERROR_USAGE, "options: method %d is not in this build; take list", options->method);
+        return status_fail(error, MNS_ERROR_USAGE, "options: method %d is not in this build; take list",
+                           options->method);
     if ((unsigned)options->solver > MNS_SOLVER_CUBIC_MONOMIAL)
         return status_fail(error, MNS_ERROR_USAGE, "options: no solver %d", options->solver);
     if ((unsigned)options->gather > MNS_GATHER_PAPER)
         return status_fail(error, MNS_ERROR_USAGE, "options: no gather %d", options->gather);
     if (options->samples < 0 || options->samples > 64)
-        return status_fail(error, MNS_ERROR_USAGE, "options: %d samples a pixel; take 1 to 64", options->samples);
+        return status_fail(error, MNS_ERROR_USAGE, "options: %d samples a pixel; take 1 to 64",
+                           options->samples);
     if (options->slots < 0 || options->slots > 1024)
         return status_fail(error, MNS_ERROR_USAGE, "options: %d slots; take 1 to 1024", options->slots);
     if (options->root_steps < 0 || options->root_steps > 4096)
-        return status_fail(error, MNS_ERROR_USAGE, "options: %d root steps; take 1 to 4096", options->root_steps);
+        return status_fail(error, MNS_ERROR_USAGE, "options: %d root steps; take 1 to 4096",
+                           options->root_steps);
     return MNS_OK;
 }
 
@@ -62,7 +66,8 @@ static void resolve_options(const mns_options *options, mns_plan *plan)
     if (!o->samples) o->samples = 1;
     if (!o->slots) o->slots = plan->limits.is_software ? 64 : 24;
     if (!o->root_steps) o->root_steps = 48;
-    plan->method_reason = options && options->method == MNS_METHOD_LIST ? "asked for" : "auto: the method of this build";
+    plan->method_reason =
+        options && options->method == MNS_METHOD_LIST ? "asked for" : "auto: the method of this build";
 }
 
 static void plan_balls(mns_plan *plan, const mns_field *field)
@@ -75,7 +80,8 @@ static void plan_balls(mns_plan *plan, const mns_field *field)
         plan->features |= FEATURE_STRENGTHS;
     else
         leave_out(plan, "a strength a ball", "all are 1");
-    plan->ball_floats = 3 + (plan->features & FEATURE_RADII ? 1 : 0) + (plan->features & FEATURE_STRENGTHS ? 1 : 0);
+    plan->ball_floats =
+        3 + (plan->features & FEATURE_RADII ? 1 : 0) + (plan->features & FEATURE_STRENGTHS ? 1 : 0);
 }
 
 static void plan_eye(mns_plan *plan, const mns_field *field)
@@ -141,7 +147,8 @@ static void plan_billboards(mns_plan *plan, const mns_field *field)
     if (points) plan->features |= FEATURE_POINTS;
     if (!points || most >= plan->limits.max_point_size) plan->features |= FEATURE_QUADS;
     if (!points) leave_out(plan, "points for small balls", "this driver's points are too small");
-    if (!(plan->features & FEATURE_QUADS)) leave_out(plan, "rectangles for large balls", "every ball fits a point");
+    if (!(plan->features & FEATURE_QUADS))
+        leave_out(plan, "rectangles for large balls", "every ball fits a point");
 }
 
 static void plan_rest(mns_plan *plan, bool host)
@@ -162,7 +169,8 @@ static void plan_rest(mns_plan *plan, bool host)
     if (plan->limits.has_clip_control) plan->features |= FEATURE_CLIP_ZERO;
     if (!(plan->features & FEATURE_COLORS)) leave_out(plan, "colours of balls", "one colour for all");
     if (!(plan->features & FEATURE_CEL)) leave_out(plan, "cel bands", "smooth shading");
-    if (!(plan->features & FEATURE_DIRECTIONAL)) leave_out(plan, "a light of its own", "the light is at the eye");
+    if (!(plan->features & FEATURE_DIRECTIONAL))
+        leave_out(plan, "a light of its own", "the light is at the eye");
     if (!(plan->features & FEATURE_SPECULAR)) leave_out(plan, "specular", "its strength is 0");
     leave_out(plan, "FBVH", "no secondary rays are asked for");
     leave_out(plan, "balls outside the view", "they cannot be seen");
@@ -210,21 +218,25 @@ static mns_status check_limits(const mns_plan *plan, const mns_field *field, mns
 {
     const mns_limits *limits = &plan->limits;
     int width = plan->frame.width, height = plan->frame.height;
-    int most_x = limits->max_texture_size < limits->max_viewport[0] ? limits->max_texture_size : limits->max_viewport[0];
-    int most_y = limits->max_texture_size < limits->max_viewport[1] ? limits->max_texture_size : limits->max_viewport[1];
+    int most_x = limits->max_texture_size < limits->max_viewport[0] ? limits->max_texture_size
+                                                                    : limits->max_viewport[0];
+    int most_y = limits->max_texture_size < limits->max_viewport[1] ? limits->max_texture_size
+                                                                    : limits->max_viewport[1];
     if (width > most_x || height > most_y)
-        return status_fail(error, MNS_ERROR_UNSUPPORTED, "size %dx%d: this driver draws at most %dx%d", width, height,
-                           most_x, most_y);
+        return status_fail(error, MNS_ERROR_UNSUPPORTED, "size %dx%d: this driver draws at most %dx%d", width,
+                           height, most_x, most_y);
     size_t most = limits->max_storage_block / (plan->ball_floats * sizeof(float));
     if (plan->features & FEATURE_QUADS) most /= 2; /* rectangles are kept twice */
     if (field->p.count > most || field->p.count > 0x7fffffff)
-        return status_fail(error, MNS_ERROR_UNSUPPORTED, "%zu balls: this driver's storage blocks hold %zu of this field",
-                           field->p.count, most);
+        return status_fail(error, MNS_ERROR_UNSUPPORTED,
+                           "%zu balls: this driver's storage blocks hold %zu of this field", field->p.count,
+                           most);
     return MNS_OK;
 }
 
-mns_status plan_make(const mns_field *field, const mns_view *view, const mns_look *look, const mns_options *options,
-                     const mns_limits *limits, bool host, mns_plan **result, mns_error *error)
+mns_status plan_make(const mns_field *field, const mns_view *view, const mns_look *look,
+                     const mns_options *options, const mns_limits *limits, bool host, mns_plan **result,
+                     mns_error *error)
 {
     if (!field || !result) return status_fail(error, MNS_ERROR_USAGE, "plan: the field is NULL");
     mns_plan *plan = calloc(1, sizeof *plan);
@@ -259,7 +271,8 @@ fail:
 }
 
 mns_status mns_plan_create(const mns_field *field, const mns_view *view, const mns_look *look,
-                           const mns_options *options, const mns_limits *limits, mns_plan **plan, mns_error *error)
+                           const mns_options *options, const mns_limits *limits, mns_plan **plan,
+                           mns_error *error)
 {
     return plan_make(field, view, look, options, limits, false, plan, error);
 }

@@ -1,4 +1,5 @@
-/* What one frame needs, decided before any GL: a feature mask, the passes in order, sizes, and what is left out and why. */
+/* What one frame needs, decided before any GL: a feature mask, the passes in order, sizes, and what is left
+ * out and why. */
 #ifndef MNS_PLAN_PLAN_H
 #define MNS_PLAN_PLAN_H
 
@@ -26,24 +27,24 @@ enum plan_feature {
     FEATURE_CEL = 1 << 19,
     FEATURE_DIRECTIONAL = 1 << 20, /* a light of its own, not at the eye */
     FEATURE_SPECULAR = 1 << 21,
-    FEATURE_SAMPLES = 1 << 22,     /* more than one sample a pixel */
-    FEATURE_CLIP_ZERO = 1 << 23,   /* clip control: depth without the 2z - 1 */
-    FEATURE_TEXELS = 1 << 24,      /* balls and lists are read as texels */
+    FEATURE_SAMPLES = 1 << 22,   /* more than one sample a pixel */
+    FEATURE_CLIP_ZERO = 1 << 23, /* clip control: depth without the 2z - 1 */
+    FEATURE_TEXELS = 1 << 24,    /* balls and lists are read as texels */
     FEATURE_COUNT = 25
 };
 
-enum { PLAN_MOST = 16 };  /* passes; parts left out are at most PLAN_PARTS */
+enum { PLAN_MOST = 16 }; /* passes; parts left out are at most PLAN_PARTS */
 enum { PLAN_PARTS = 24 };
 
 /* What the decisions hang on; see plan_facts_of. */
 typedef struct plan_facts {
     double eye_distance; /* from the box of the effective spheres; 0 inside */
     bool eye_in_ball;
-    double eye_value;    /* f(eye) */
-    double strongest;    /* largest strength; 1 without strengths */
-    bool negative;       /* some strength below zero */
-    double farthest;     /* from the eye to the farthest corner of the box of the effective spheres */
-    double plane_depth;  /* depth along the view before which no effective sphere begins; at least 0 */
+    double eye_value;        /* f(eye) */
+    double strongest;        /* largest strength; 1 without strengths */
+    bool negative;           /* some strength below zero */
+    double farthest;         /* from the eye to the farthest corner of the box of the effective spheres */
+    double plane_depth;      /* depth along the view before which no effective sphere begins; at least 0 */
     double nearest_point[3]; /* of that box to the eye */
 } plan_facts;
 
@@ -66,9 +67,9 @@ struct mns_plan {
     mns_look look;       /* resolved */
     size_t color_column; /* where COLORS */
     double color_range[2];
-    size_t ball_floats;  /* a ball in the GPU's buffer */
-    size_t pool_nodes;   /* to begin with */
-    size_t pool_most;    /* allowed */
+    size_t ball_floats; /* a ball in the GPU's buffer */
+    size_t pool_nodes;  /* to begin with */
+    size_t pool_most;   /* allowed */
     const char *method_reason;
     char color_by[64];
     char *text;
@@ -78,8 +79,9 @@ struct mns_plan {
 void plan_facts_of(const mns_field *field, const view_frame *frame, plan_facts *facts);
 
 /* mns_plan_create with the knowledge that a host's framebuffer is drawn on. */
-mns_status plan_make(const mns_field *field, const mns_view *view, const mns_look *look, const mns_options *options,
-                     const mns_limits *limits, bool host, mns_plan **plan, mns_error *error);
+mns_status plan_make(const mns_field *field, const mns_view *view, const mns_look *look,
+                     const mns_options *options, const mns_limits *limits, bool host, mns_plan **plan,
+                     mns_error *error);
 
 /* Fills view-independent defaults of a look and checks it against the field's columns. */
 mns_status plan_look(const mns_look *look, const mns_field *field, mns_plan *plan, mns_error *error);
@@ -106,8 +108,9 @@ typedef enum plan_shader {
 
 enum { PLAN_DEFINES = 2048 };
 
-/* The files of a program (see gl/program.h; NULL where it has no such stage) and the #define lines of this plan's variant, of
- * only those features that the program reads, so that plans which differ elsewhere share it. */
+/* The files of a program (see gl/program.h; NULL where it has no such stage) and the #define lines of this
+ * plan's variant, of only those features that the program reads, so that plans which differ elsewhere share
+ * it. */
 void plan_shader_files(plan_shader shader, const char **vertex, const char **fragment, const char **compute);
 void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[PLAN_DEFINES]);
 /* Whether the plan's frame may run that program. */

@@ -10,24 +10,27 @@ typedef struct shader_part {
 
 enum {
     READS_BALL = FEATURE_KERNEL | FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_FAR,
-    READS_RAY = READS_BALL | FEATURE_SOLVER | FEATURE_EYE_IN_BALL | FEATURE_EYE_INSIDE | FEATURE_HOST | FEATURE_COLORS |
-                FEATURE_LABELS | FEATURE_TEXELS,
+    READS_RAY = READS_BALL | FEATURE_SOLVER | FEATURE_EYE_IN_BALL | FEATURE_EYE_INSIDE | FEATURE_HOST |
+                FEATURE_COLORS | FEATURE_LABELS | FEATURE_TEXELS,
     READS_BILLBOARD = FEATURE_RADII | FEATURE_FAR | FEATURE_CLIP_ZERO,
 };
 
 static const shader_part parts[SHADER_COUNT] = {
-    [SHADER_CORE_QUADS] = {"billboard.vert.glsl", "core.frag.glsl", NULL, READS_BILLBOARD | FEATURE_CORE_RADII},
-    [SHADER_CORE_POINTS] = {"billboard.vert.glsl", "core.frag.glsl", NULL, READS_BILLBOARD | FEATURE_CORE_RADII},
+    [SHADER_CORE_QUADS] = {"billboard.vert.glsl", "core.frag.glsl", NULL,
+                           READS_BILLBOARD | FEATURE_CORE_RADII},
+    [SHADER_CORE_POINTS] = {"billboard.vert.glsl", "core.frag.glsl", NULL,
+                            READS_BILLBOARD | FEATURE_CORE_RADII},
     [SHADER_GATHER_QUADS] = {"billboard.vert.glsl", "gather.frag.glsl", NULL,
-                             READS_BILLBOARD | FEATURE_EYE_IN_BALL | FEATURE_PAPER | FEATURE_CORE | FEATURE_HOST},
+                             READS_BILLBOARD | FEATURE_EYE_IN_BALL | FEATURE_PAPER | FEATURE_CORE |
+                                 FEATURE_HOST},
     [SHADER_GATHER_POINTS] = {"billboard.vert.glsl", "gather.frag.glsl", NULL,
-                              READS_BILLBOARD | FEATURE_EYE_IN_BALL | FEATURE_PAPER | FEATURE_CORE | FEATURE_HOST},
+                              READS_BILLBOARD | FEATURE_EYE_IN_BALL | FEATURE_PAPER | FEATURE_CORE |
+                                  FEATURE_HOST},
     [SHADER_ORDER] = {NULL, NULL, "order.glsl", 0},
     [SHADER_SHUFFLE] = {NULL, NULL, "shuffle.glsl", 0},
     [SHADER_CAST] = {"screen.vert.glsl", "cast.glsl", NULL, READS_RAY},
     [SHADER_WALK] = {NULL, NULL, "resolve.glsl", READS_RAY & ~(uint64_t)(FEATURE_SOLVER | FEATURE_TEXELS)},
-    [SHADER_RESOLVE] = {NULL, NULL, "resolve.glsl",
-                        READS_RAY & ~(uint64_t)(FEATURE_SOLVER | FEATURE_TEXELS)},
+    [SHADER_RESOLVE] = {NULL, NULL, "resolve.glsl", READS_RAY & ~(uint64_t)(FEATURE_SOLVER | FEATURE_TEXELS)},
     [SHADER_SHADE] = {"screen.vert.glsl", "shade.frag.glsl", NULL,
                       FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_DIRECTIONAL | FEATURE_SPECULAR},
     [SHADER_HOST_DEPTH] = {"screen.vert.glsl", "host_depth.frag.glsl", NULL, FEATURE_FAR},
@@ -72,9 +75,10 @@ static void add_features(char *defines, uint64_t f)
         if (f & names[i].bit) add(defines, names[i].name, 1);
 }
 
-/* Loop rounds that one invocation may take: drivers may stop endless-looking shaders; llvmpipe does after 65,535 rounds of all the
- * loops of eight lanes together. The cast, whose lanes walk much alike, may take more: a cut is noticed, and the walk done again. A
- * walk over the list, which comes back for more, stays below a cut by lanes however different. */
+/* Loop rounds that one invocation may take: drivers may stop endless-looking shaders; llvmpipe does after
+ * 65,535 rounds of all the loops of eight lanes together. The cast, whose lanes walk much alike, may take
+ * more: a cut is noticed, and the walk done again. A walk over the list, which comes back for more, stays
+ * below a cut by lanes however different. */
 enum { CAST_BUDGET = 24000, WALK_BUDGET = 5000 };
 
 /* Numbers that a walk along a ray is specialised by. */
@@ -100,7 +104,8 @@ void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[
 {
     uint64_t f = plan->features & parts[shader].reads;
     defines[0] = '\0';
-    if (shader == SHADER_CAST || shader == SHADER_WALK || shader == SHADER_RESOLVE) add_ray(plan, shader, defines, f);
+    if (shader == SHADER_CAST || shader == SHADER_WALK || shader == SHADER_RESOLVE)
+        add_ray(plan, shader, defines, f);
     if (shader == SHADER_CORE_QUADS || shader == SHADER_CORE_POINTS) add(defines, "CORE_SPHERE", 1);
     if (shader == SHADER_CORE_POINTS || shader == SHADER_GATHER_POINTS) add(defines, "POINTS", 1);
     if (shader == SHADER_GATHER_QUADS || shader == SHADER_GATHER_POINTS) {
@@ -117,13 +122,20 @@ bool plan_needs(const mns_plan *plan, plan_shader shader)
 {
     uint64_t f = plan->features;
     switch (shader) {
-    case SHADER_CORE_QUADS: return f & FEATURE_CORE && f & FEATURE_QUADS;
-    case SHADER_CORE_POINTS: return f & FEATURE_CORE && f & FEATURE_POINTS;
-    case SHADER_GATHER_QUADS: return f & FEATURE_QUADS;
-    case SHADER_GATHER_POINTS: return f & FEATURE_POINTS;
-    case SHADER_SHUFFLE: return f & FEATURE_SHUFFLE;
+    case SHADER_CORE_QUADS:
+        return f & FEATURE_CORE && f & FEATURE_QUADS;
+    case SHADER_CORE_POINTS:
+        return f & FEATURE_CORE && f & FEATURE_POINTS;
+    case SHADER_GATHER_QUADS:
+        return f & FEATURE_QUADS;
+    case SHADER_GATHER_POINTS:
+        return f & FEATURE_POINTS;
+    case SHADER_SHUFFLE:
+        return f & FEATURE_SHUFFLE;
     case SHADER_HOST_DEPTH:
-    case SHADER_HOST_DRAW: return f & FEATURE_HOST;
-    default: return true;
+    case SHADER_HOST_DRAW:
+        return f & FEATURE_HOST;
+    default:
+        return true;
     }
 }

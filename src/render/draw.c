@@ -43,7 +43,8 @@ static bool same_balls(const draw *d)
     const mns_plan *plan = d->plan;
     return !plan->options.moved && last->field == d->field && last->stamp == d->field->stamp &&
            last->features == plan->features && memcmp(&last->frame, &plan->frame, sizeof plan->frame) == 0 &&
-           memcmp(last->origin, plan->origin, sizeof last->origin) == 0 && last->color_column == plan->color_column &&
+           memcmp(last->origin, plan->origin, sizeof last->origin) == 0 &&
+           last->color_column == plan->color_column &&
            memcmp(last->color_range, plan->color_range, sizeof last->color_range) == 0;
 }
 
@@ -51,14 +52,16 @@ static void remember(draw *d)
 {
     const mns_plan *plan = d->plan;
     render_last *last = &d->r->last;
-    *last = (render_last){.field = d->field, .stamp = d->field->stamp, .features = plan->features, .frame = plan->frame};
+    *last = (render_last){
+        .field = d->field, .stamp = d->field->stamp, .features = plan->features, .frame = plan->frame};
     memcpy(last->origin, plan->origin, sizeof last->origin);
     last->color_column = plan->color_column;
     memcpy(last->color_range, plan->color_range, sizeof last->color_range);
 }
 
 /* Maps a buffer of `floats` floats a ball and lets `which` fill it. */
-static mns_status upload(draw *d, gl_buffer *buffer, const char *what, size_t floats, int which, mns_error *error)
+static mns_status upload(draw *d, gl_buffer *buffer, const char *what, size_t floats, int which,
+                         mns_error *error)
 {
     gl_device *device = &d->r->device;
     const list_order *order = &d->r->order;
@@ -66,14 +69,23 @@ static mns_status upload(draw *d, gl_buffer *buffer, const char *what, size_t fl
     size_t size = (records ? records : 1) * floats * sizeof(float);
     void *data;
     do {
-        mns_status status = gl_buffer_reserve(device, buffer, what, size, d->plan->limits.max_storage_block, error);
+        mns_status status =
+            gl_buffer_reserve(device, buffer, what, size, d->plan->limits.max_storage_block, error);
         if (!status) status = gl_buffer_map(device, buffer, size, &data, error);
         if (status) return status;
         switch (which) {
-        case 0: list_pack_high(order, d->field, d->plan, data); break;
-        case 1: list_pack_low(order, d->field, d->plan, data); break;
-        case 2: list_pack_cores(order, d->field, data); break;
-        default: list_pack_colors(order, d->field, d->plan, data); break;
+        case 0:
+            list_pack_high(order, d->field, d->plan, data);
+            break;
+        case 1:
+            list_pack_low(order, d->field, d->plan, data);
+            break;
+        case 2:
+            list_pack_cores(order, d->field, data);
+            break;
+        default:
+            list_pack_colors(order, d->field, d->plan, data);
+            break;
         }
     } while (!gl_buffer_unmap(device, buffer));
     return MNS_OK;
@@ -106,7 +118,8 @@ static mns_status sort_and_upload(draw *d, mns_error *error)
     mark(d, MNS_PHASE_SORT);
     if (!status) status = upload(d, &p->balls, "balls", d->plan->ball_floats, 0, error);
     if (!status) status = count_backwards(d, error);
-    if (!status && d->plan->features & FEATURE_CORE_RADII) status = upload(d, &p->cores, "core radii", 1, 2, error);
+    if (!status && d->plan->features & FEATURE_CORE_RADII)
+        status = upload(d, &p->cores, "core radii", 1, 2, error);
     if (!status && d->plan->features & FEATURE_COLORS) status = upload(d, &p->colors, "colours", 1, 3, error);
     mark(d, MNS_PHASE_UPLOAD);
     if (!status) remember(d);
@@ -181,8 +194,9 @@ static mns_status draw_region(draw *d, list_region region, mns_error *error);
 static mns_status draw_halves(draw *d, list_region region, mns_error *error)
 {
     if (region.width == 1 && region.height == 1)
-        return status_fail(error, MNS_ERROR_UNSUPPORTED, "pixel %d,%d: its list alone passes the node pool (%zu nodes)",
-                           region.x, region.y, d->plan->pool_most);
+        return status_fail(error, MNS_ERROR_UNSUPPORTED,
+                           "pixel %d,%d: its list alone passes the node pool (%zu nodes)", region.x, region.y,
+                           d->plan->pool_most);
     list_region first = region, second = region;
     if (region.height > 1) {
         first.height = region.height / 2;
@@ -215,7 +229,8 @@ static mns_status sort_lists(draw *d, list_region region, mns_error *error)
     return MNS_OK;
 }
 
-/* Casts a region's lists. Where they turn out not to be in order they are sorted and cast again; from then on they are sorted first. */
+/* Casts a region's lists. Where they turn out not to be in order they are sorted and cast again; from then on
+ * they are sorted first. */
 static mns_status cast(draw *d, list_region region, list_counts *counts, mns_error *error)
 {
     mns_status status = d->r->disordered ? sort_lists(d, region, error) : MNS_OK;
@@ -227,7 +242,8 @@ static mns_status cast(draw *d, list_region region, list_counts *counts, mns_err
     if (status) return status;
     list_cast(&d->r->passes, &d->r->device, d->plan, d->program, d->frame->planes_target, region, counts);
     if (!counts->disorder) return MNS_OK;
-    return status_fail(error, MNS_ERROR_GL, "%s cannot sort the lists of %u pixels; draw fewer balls or a smaller frame",
+    return status_fail(error, MNS_ERROR_GL,
+                       "%s cannot sort the lists of %u pixels; draw fewer balls or a smaller frame",
                        d->r->device.name, counts->disorder);
 }
 
@@ -241,9 +257,11 @@ static mns_status draw_region(draw *d, list_region region, mns_error *error)
     if (nodes > p->node_capacity) {
         if (nodes > plan->pool_most) return draw_halves(d, region, error);
         d->stats->fallbacks.pool_grown++;
-        mns_status status = gl_buffer_reserve(device, &p->nodes, "node pool", nodes * LIST_NODE, plan->pool_most * LIST_NODE, error);
+        mns_status status = gl_buffer_reserve(device, &p->nodes, "node pool", nodes * LIST_NODE,
+                                              plan->pool_most * LIST_NODE, error);
         if (status) return status;
-        p->node_capacity = p->nodes.size / LIST_NODE < plan->pool_most ? p->nodes.size / LIST_NODE : plan->pool_most;
+        p->node_capacity =
+            p->nodes.size / LIST_NODE < plan->pool_most ? p->nodes.size / LIST_NODE : plan->pool_most;
         nodes = list_gather(p, device, plan, &d->r->order, d->program, region);
     }
     mark(d, MNS_PHASE_GATHER);
@@ -348,9 +366,9 @@ static mns_status count_hits(draw *d, mns_error *error)
 static uint64_t count_buffers(const mns_renderer *r)
 {
     const list_passes *p = &r->passes;
-    const gl_buffer *all[] = {&p->balls, &p->balls_low, &p->cores,     &p->colors,    &p->nodes,  &p->counter,
-                              &p->redo,  &p->view,      &p->view_wide, &p->far_block, &r->shade,
-                              &p->backwards};
+    const gl_buffer *all[] = {&p->balls,     &p->balls_low, &p->cores, &p->colors,
+                              &p->nodes,     &p->counter,   &p->redo,  &p->view,
+                              &p->view_wide, &p->far_block, &r->shade, &p->backwards};
     uint64_t count = 0;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) count += all[i]->id != 0;
     return count;
@@ -380,13 +398,16 @@ static mns_status draw_all(draw *d, mns_error *error)
     return status ? status : gl_check(&r->device, "drawing", error);
 }
 
-static mns_status draw_frame(mns_renderer *r, const mns_field *field, const mns_view *view, const mns_look *look,
-                             const mns_options *options, const mns_target *target, mns_frame *frame, mns_error *error)
+static mns_status draw_frame(mns_renderer *r, const mns_field *field, const mns_view *view,
+                             const mns_look *look, const mns_options *options, const mns_target *target,
+                             mns_frame *frame, mns_error *error)
 {
     if (!r || !field || !frame || frame->renderer != r)
-        return status_fail(error, MNS_ERROR_USAGE, "draw: renderer, field or frame is NULL, or the frame is another's");
+        return status_fail(error, MNS_ERROR_USAGE,
+                           "draw: renderer, field or frame is NULL, or the frame is another's");
     mns_plan *plan;
-    mns_status status = plan_make(field, view, look, options, &r->device.limits, target != NULL, &plan, error);
+    mns_status status =
+        plan_make(field, view, look, options, &r->device.limits, target != NULL, &plan, error);
     if (status) return status;
     mns_plan_destroy(frame->plan);
     frame->plan = plan;
@@ -399,8 +420,9 @@ static mns_status draw_frame(mns_renderer *r, const mns_field *field, const mns_
     return status;
 }
 
-mns_status mns_renderer_draw(mns_renderer *renderer, const mns_field *field, const mns_view *view, const mns_look *look,
-                             const mns_options *options, mns_frame *frame, mns_error *error)
+mns_status mns_renderer_draw(mns_renderer *renderer, const mns_field *field, const mns_view *view,
+                             const mns_look *look, const mns_options *options, mns_frame *frame,
+                             mns_error *error)
 {
     return draw_frame(renderer, field, view, look, options, NULL, frame, error);
 }

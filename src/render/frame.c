@@ -17,7 +17,8 @@ mns_status mns_frame_create(mns_renderer *renderer, mns_frame **frame, mns_error
 static void drop_textures(mns_frame *f)
 {
     const GladGLContext *gl = &f->renderer->device.gl;
-    GLuint textures[] = {f->t, f->normal, f->color, f->shaded}, targets[] = {f->planes_target, f->shaded_target};
+    GLuint textures[] = {f->t, f->normal, f->color, f->shaded},
+           targets[] = {f->planes_target, f->shaded_target};
     gl->DeleteTextures(4, textures);
     gl->DeleteFramebuffers(2, targets);
     f->t = f->normal = f->color = f->shaded = f->planes_target = f->shaded_target = 0;
@@ -49,7 +50,8 @@ static GLuint target_make(const GladGLContext *gl, const GLuint *texture, int co
     GLuint target;
     gl->GenFramebuffers(1, &target);
     gl->BindFramebuffer(GL_FRAMEBUFFER, target);
-    for (int i = 0; i < count; i++) gl->FramebufferTexture2D(GL_FRAMEBUFFER, draw[i], GL_TEXTURE_2D, texture[i], 0);
+    for (int i = 0; i < count; i++)
+        gl->FramebufferTexture2D(GL_FRAMEBUFFER, draw[i], GL_TEXTURE_2D, texture[i], 0);
     gl->DrawBuffers(count, draw);
     gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
     return target;
@@ -79,9 +81,12 @@ mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
 unsigned mns_frame_texture(const mns_frame *frame, mns_plane plane)
 {
     switch (plane) {
-    case MNS_PLANE_COLOR: return frame->shaded;
-    case MNS_PLANE_DEPTH: return frame->t;
-    case MNS_PLANE_NORMAL: return frame->normal;
+    case MNS_PLANE_COLOR:
+        return frame->shaded;
+    case MNS_PLANE_DEPTH:
+        return frame->t;
+    case MNS_PLANE_NORMAL:
+        return frame->normal;
     }
     return 0;
 }
@@ -147,7 +152,8 @@ static void unpack(const mns_frame *f, mns_image *image, float *row_store)
 
 mns_status mns_frame_read(mns_frame *f, mns_image **result, mns_error *error)
 {
-    if (!f || !result || !f->plan) return status_fail(error, MNS_ERROR_USAGE, "frame: nothing has been drawn into it yet");
+    if (!f || !result || !f->plan)
+        return status_fail(error, MNS_ERROR_USAGE, "frame: nothing has been drawn into it yet");
     double begin = clock_ms();
     float *store = memory_array((size_t)f->width * (size_t)f->height, 4 * sizeof(float));
     mns_image *image = image_make(f->width, f->height);

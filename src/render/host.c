@@ -6,12 +6,13 @@ void host_depth_take(list_passes *p, gl_device *device, const mns_plan *plan, co
     gl->BindFramebuffer(GL_READ_FRAMEBUFFER, target->framebuffer);
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(GL_TEXTURE_2D, p->host_depth);
-    gl->CopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, target->x, target->y, plan->frame.width, plan->frame.height);
+    gl->CopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, target->x, target->y, plan->frame.width,
+                          plan->frame.height);
     gl->BindTexture(GL_TEXTURE_2D, 0);
 }
 
-void host_draw(list_passes *p, gl_device *device, const mns_plan *plan, const mns_target *target, GLuint program,
-               GLuint shaded, GLuint t)
+void host_draw(list_passes *p, gl_device *device, const mns_plan *plan, const mns_target *target,
+               GLuint program, GLuint shaded, GLuint t)
 {
     const GladGLContext *gl = &device->gl;
     gl->BindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);

@@ -8,7 +8,7 @@
 void host_depth_take(list_passes *p, gl_device *device, const mns_plan *plan, const mns_target *target);
 
 /* Draws the shaded surface with its depth, tested against the host's. */
-void host_draw(list_passes *p, gl_device *device, const mns_plan *plan, const mns_target *target, GLuint program,
-               GLuint shaded, GLuint t);
+void host_draw(list_passes *p, gl_device *device, const mns_plan *plan, const mns_target *target,
+               GLuint program, GLuint shaded, GLuint t);
 
 #endif

@@ -7,13 +7,13 @@
 /* What the sorted and uploaded balls were made from: the same again, and nothing is sorted or uploaded. */
 typedef struct render_last {
     const mns_field *field;
-    uint64_t stamp;   /* of the field: its address may have been used again */
+    uint64_t stamp; /* of the field: its address may have been used again */
     uint64_t features;
     view_frame frame;
     double origin[3];
     size_t color_column;
     double color_range[2];
-    bool low;         /* the low words are there too */
+    bool low; /* the low words are there too */
 } render_last;
 
 struct mns_renderer {

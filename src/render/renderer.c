@@ -46,7 +46,8 @@ size_t mns_renderer_messages(const mns_renderer *renderer, const char **last)
 
 const char *mns_phase_name(mns_phase phase)
 {
-    static const char *const names[MNS_PHASE_COUNT] = {"sort",  "bin",    "upload", "core_depth", "gather", "build",
-                                                       "cast",  "normal", "trace",  "shade",      "readback"};
+    static const char *const names[MNS_PHASE_COUNT] = {"sort",   "bin",   "upload",  "core_depth",
+                                                       "gather", "build", "cast",    "normal",
+                                                       "trace",  "shade", "readback"};
     return (unsigned)phase < MNS_PHASE_COUNT ? names[phase] : NULL;
 }

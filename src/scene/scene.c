@@ -134,8 +134,8 @@ fail:
 
 mns_status mns_scene_load(const char *path, mns_scene **scene, mns_error *error)
 {
-    char *text;
-    size_t size;
+    char *text = NULL;
+    size_t size = 0;
     mns_status status = read_text(path, &text, &size, error);
     if (status) return status;
     status = scene_parse(text, size, path, scene, error);

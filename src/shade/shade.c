@@ -43,13 +43,13 @@ static void fill(shade_block *block, const mns_plan *plan, const double jitter[2
     put(block->way_y, vec3_scale(f->up, unit), 0);
     const uint32_t *anchor = palette_map(look->color_map);
     for (int i = 0; i < PALETTE_ANCHORS; i++)
-        put(block->map[i], (vec3){(anchor[i] >> 16) / 255.0, (anchor[i] >> 8 & 255) / 255.0, (anchor[i] & 255) / 255.0},
-            1);
+        put(block->map[i],
+            (vec3){(anchor[i] >> 16) / 255.0, (anchor[i] >> 8 & 255) / 255.0, (anchor[i] & 255) / 255.0}, 1);
 }
 
 mns_status shade_pass(gl_device *device, gl_buffer *uniforms, GLuint vertex_array, const mns_plan *plan,
-                      GLuint program, const GLuint plane[3], GLuint target, int sample, const double jitter[2],
-                      mns_error *error)
+                      GLuint program, const GLuint plane[3], GLuint target, int sample,
+                      const double jitter[2], mns_error *error)
 {
     const GladGLContext *gl = &device->gl;
     shade_block block;
