@@ -1,0 +1,64 @@
+#include "support/variants.h"
+
+#include <string.h>
+
+/* `a` only with all of `b`. */
+static bool implies(uint64_t features, uint64_t a, uint64_t b)
+{
+    return !(features & a) || (features & b) == b;
+}
+
+bool variant_possible(uint64_t f)
+{
+    unsigned kernel = f & FEATURE_KERNEL, solver = (f & FEATURE_SOLVER) >> 3;
+    bool each_core = f & FEATURE_CORE && f & FEATURE_STRENGTHS;
+    return kernel >= MNS_KERNEL_POLY2 && kernel <= MNS_KERNEL_WENDLAND &&
+           solver <= MNS_SOLVER_CUBIC_MONOMIAL && f & (FEATURE_POINTS | FEATURE_QUADS) &&
+           implies(f, FEATURE_LABELS, FEATURE_COLORS) &&
+           implies(f, FEATURE_EYE_INSIDE, FEATURE_EYE_IN_BALL) &&
+           !(f & FEATURE_EYE_INSIDE && f & FEATURE_CORE) && !(f & FEATURE_FAR && f & FEATURE_EYE_IN_BALL) &&
+           each_core == !!(f & FEATURE_CORE_RADII);
+}
+
+static void defines_of(plan_shader shader, uint64_t features, char defines[PLAN_DEFINES])
+{
+    mns_plan plan = {.features = features};
+    plan_shader_defines(&plan, shader, defines);
+}
+
+uint64_t variant_reads(plan_shader shader)
+{
+    char with[PLAN_DEFINES], without[PLAN_DEFINES];
+    const uint64_t all = (1u << FEATURE_COUNT) - 1;
+    uint64_t reads = 0;
+    /* A feature may matter only beside another, or only without it. */
+    for (int bit = 0; bit < FEATURE_COUNT; bit++)
+        for (int other = 0; other <= 2 * FEATURE_COUNT; other++) {
+            uint64_t one = (uint64_t)1 << bit,
+                     base = other == 2 * FEATURE_COUNT ? 0 : (uint64_t)1 << other / 2;
+            if (other & 1) base = all & ~base;
+            defines_of(shader, base | one, with);
+            defines_of(shader, base & ~one, without);
+            if (strcmp(with, without) != 0) reads |= one;
+        }
+    return reads;
+}
+
+/* Features that the shader does not read, as those that it reads ask for them. */
+static uint64_t fill_in(plan_shader shader, uint64_t reads, uint64_t f)
+{
+    bool quads = shader == SHADER_CORE_QUADS || shader == SHADER_GATHER_QUADS;
+    uint64_t more = quads ? FEATURE_QUADS : FEATURE_POINTS | FEATURE_QUADS;
+    if (!(reads & FEATURE_KERNEL)) more |= MNS_KERNEL_POLY3;
+    if (f & FEATURE_EYE_INSIDE) more |= FEATURE_EYE_IN_BALL;
+    if (f & FEATURE_LABELS) more |= FEATURE_COLORS;
+    if (f & FEATURE_CORE_RADII) more |= FEATURE_CORE | FEATURE_STRENGTHS;
+    if (shader == SHADER_CORE_QUADS || shader == SHADER_CORE_POINTS) more |= FEATURE_CORE;
+    return f | (more & ~reads);
+}
+
+bool variant_of(plan_shader shader, uint64_t reads, uint64_t subset, uint64_t *features)
+{
+    *features = fill_in(shader, reads, subset);
+    return variant_possible(*features);
+}
