@@ -80,7 +80,7 @@ void plan_facts_of(const mns_field *field, const view_frame *frame, plan_facts *
 
 /* mns_plan_create with the knowledge that a host's framebuffer is drawn on. */
 mns_status plan_make(const mns_field *field, const mns_view *view, const mns_look *look,
-                     const mns_options *options, const mns_limits *limits, bool host, mns_plan **plan,
+                     const mns_options *options, const mns_limits *limits, bool host, mns_plan **result,
                      mns_error *error);
 
 /* Fills view-independent defaults of a look and checks it against the field's columns. */
