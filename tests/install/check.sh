@@ -1,6 +1,7 @@
 #!/bin/sh
 # Installs to a folder of its own, moves that folder, and builds and runs host.c against it in both ways. The test's
-# environment (cmake/install.cmake) says which build, which compiler and which flags.
+# environment (cmake/install.cmake) says which build, which compiler and which flags. Then the hosts of examples/, which
+# the README shows: where the installed program can draw, so must they.
 set -eu
 here=$(dirname "$(realpath "$0")")
 work=$(mktemp -d)
@@ -31,4 +32,17 @@ expect_100_balls "$work/host"
 "$CMAKE" --build "$work/build" >/dev/null
 expect_100_balls "$work/build/host"
 
+
+examples=$here/../../examples
+# shellcheck disable=SC2046,SC2086
+"$CC" -std=c11 -Wall -Wextra -Werror ${HOST_FLAGS-} "$examples/host.c" -o "$work/drawing" \
+    $(pkg-config --cflags --libs meniscus) -Wl,-rpath,"$prefix/$LIBDIR"
+# shellcheck disable=SC2046,SC2086
+"$CC" -std=c11 -Wall -Wextra -Werror ${HOST_FLAGS-} -c "$examples/host_overlay.c" -o "$work/overlay.o" \
+    $(pkg-config --cflags meniscus)
+cd "$work"
+if "$prefix/$BINDIR/meniscus" render scattered:10 -o drawn.png --size 16x12; then
+    ./drawing
+    [ -s host.png ] || { echo "examples/host.c left no host.png" >&2; exit 1; }
+fi
 "$prefix/$BINDIR/meniscus" --version
