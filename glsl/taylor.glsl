@@ -63,7 +63,7 @@ int piece_solve(REAL s, REAL stop, REAL side, int steps, out REAL hit)
     for (int step = 0; step < steps; step++) {
         Slope at = taylor_at(s, side);
         if (at.value >= NUM(-2.0) * margin) {
-            hit = s;
+            hit = at.slope > NUM(0.0) ? s - at.value / at.slope : s;
             bool crosses = at.slope > NUM(0.0) && at.slope * at.slope > NUM(4.0) * bend * (NUM(3.0) * margin + abs(at.value));
             return crosses && at.value <= NUM(2.0) * margin ? PIECE_HIT : PIECE_OPEN;
         }
