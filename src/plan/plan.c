@@ -137,15 +137,27 @@ static void plan_core(mns_plan *plan, const mns_field *field)
         plan->core_ratio = kernel_core_radius(field->kernel, field->iso);
 }
 
+/* At least the diameter in pixels of any ball's image, between the tangents from the eye: that of the largest
+ * ball, as near as any, at the frame's edge. */
+static double widest_image(const mns_plan *plan, const mns_field *field)
+{
+    const view_frame *f = &plan->frame;
+    double nearest = plan->facts.plane_depth, radius = field->radius_max;
+    if (!(nearest > 0.011 * radius)) return INFINITY;
+    double edge = f->tan_half * ((f->width > f->height ? f->width : f->height) + 2.0) /
+                  f->height; /* samples are jittered */
+    double aside = (nearest + radius) * edge + radius * sqrt(1 + edge * edge);
+    double square = nearest * (nearest + 2 * radius);
+    return 1.005 * radius * sqrt(aside * aside + square) / square * f->height / f->tan_half;
+}
+
 /* Points for balls that fit one: a vertex each instead of four. */
 static void plan_billboards(mns_plan *plan, const mns_field *field)
 {
-    double cot = plan->frame.height / (2 * plan->frame.tan_half);
-    double nearest = fmax(plan->facts.plane_depth, 0);
-    double most = nearest > 0 ? 2.2 * field->radius_max * cot / nearest + 2 : INFINITY;
     bool points = plan->limits.max_point_size >= 4;
     if (points) plan->features |= FEATURE_POINTS;
-    if (!points || most >= plan->limits.max_point_size) plan->features |= FEATURE_QUADS;
+    if (!points || widest_image(plan, field) >= plan->limits.max_point_size - 1)
+        plan->features |= FEATURE_QUADS;
     if (!points) leave_out(plan, "points for small balls", "this driver's points are too small");
     if (!(plan->features & FEATURE_QUADS))
         leave_out(plan, "rectangles for large balls", "every ball fits a point");
