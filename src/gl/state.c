@@ -1,9 +1,36 @@
 #include "gl/state.h"
 
 static const GLenum switches[STATE_SWITCHES] = {
-    GL_DEPTH_TEST,         GL_SCISSOR_TEST,       GL_BLEND,       GL_CULL_FACE,        GL_STENCIL_TEST,
-    GL_PROGRAM_POINT_SIZE, GL_RASTERIZER_DISCARD, GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP,
+    GL_DEPTH_TEST,
+    GL_SCISSOR_TEST,
+    GL_BLEND,
+    GL_CULL_FACE,
+    GL_STENCIL_TEST,
+    GL_PROGRAM_POINT_SIZE,
+    GL_RASTERIZER_DISCARD,
+    GL_DEPTH_CLAMP,
+    GL_FRAMEBUFFER_SRGB,
+    GL_COLOR_LOGIC_OP,
+    GL_POLYGON_OFFSET_FILL,
+    GL_PRIMITIVE_RESTART,
+    GL_PRIMITIVE_RESTART_FIXED_INDEX,
+    GL_SAMPLE_MASK,
+    GL_SAMPLE_COVERAGE,
+    GL_SAMPLE_ALPHA_TO_COVERAGE,
+    GL_CLIP_DISTANCE0,
+    GL_CLIP_DISTANCE0 + 1,
+    GL_CLIP_DISTANCE0 + 2,
+    GL_CLIP_DISTANCE0 + 3,
+    GL_CLIP_DISTANCE0 + 4,
+    GL_CLIP_DISTANCE0 + 5,
+    GL_CLIP_DISTANCE0 + 6,
+    GL_CLIP_DISTANCE0 + 7,
 };
+
+/* How rows are written to memory: a host's row length would have a read run past its end. */
+static const GLenum pack_names[STATE_PACK] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
+                                              GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES};
+static const GLint pack_plain[STATE_PACK] = {4, 0, 0, 0, 0};
 
 static const GLenum blend_names[6] = {GL_BLEND_SRC_RGB,   GL_BLEND_DST_RGB,      GL_BLEND_SRC_ALPHA,
                                       GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA};
@@ -68,7 +95,11 @@ void gl_state_take(gl_device *device, gl_state *s)
     gl->GetIntegerv(GL_VIEWPORT, s->viewport);
     gl->GetIntegerv(GL_SCISSOR_BOX, s->scissor);
     gl->GetIntegerv(GL_DEPTH_FUNC, &s->depth_func);
-    gl->GetIntegerv(GL_PACK_ALIGNMENT, &s->pack_alignment);
+    gl->GetFloatv(GL_DEPTH_RANGE, s->depth_range);
+    for (int i = 0; i < STATE_PACK; i++) {
+        gl->GetIntegerv(pack_names[i], &s->pack[i]);
+        gl->PixelStorei(pack_names[i], pack_plain[i]);
+    }
     gl->GetIntegerv(GL_POLYGON_MODE, s->polygon_mode);
     for (int i = 0; i < 6; i++) gl->GetIntegerv(blend_names[i], &s->blend[i]);
     gl->GetBooleanv(GL_DEPTH_WRITEMASK, &s->depth_mask);
@@ -80,7 +111,7 @@ void gl_state_take(gl_device *device, gl_state *s)
     gl->Enable(GL_PROGRAM_POINT_SIZE);
     gl->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    gl->PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl->DepthRangef(0, 1);
     if (device->limits.has_clip_control) {
         gl->GetIntegerv(GL_CLIP_ORIGIN, &s->clip[0]);
         gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &s->clip[1]);
@@ -130,7 +161,8 @@ void gl_state_put_back(gl_device *device, const gl_state *s)
     gl->BlendFuncSeparate((GLenum)s->blend[0], (GLenum)s->blend[1], (GLenum)s->blend[2], (GLenum)s->blend[3]);
     gl->BlendEquationSeparate((GLenum)s->blend[4], (GLenum)s->blend[5]);
     gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)s->polygon_mode[0]);
-    gl->PixelStorei(GL_PACK_ALIGNMENT, s->pack_alignment);
+    gl->DepthRangef(s->depth_range[0], s->depth_range[1]);
+    for (int i = 0; i < STATE_PACK; i++) gl->PixelStorei(pack_names[i], s->pack[i]);
     if (device->limits.has_clip_control) gl->ClipControl((GLenum)s->clip[0], (GLenum)s->clip[1]);
     for (int i = 0; i < STATE_SWITCHES; i++) {
         if (s->switches[i])

@@ -4,7 +4,14 @@
 
 #include "gl/device.h"
 
-enum { STATE_TEXTURES = 4, STATE_IMAGES = 4, STATE_STORAGE = 5, STATE_UNIFORMS = 2, STATE_SWITCHES = 10 };
+enum {
+    STATE_TEXTURES = 4,
+    STATE_IMAGES = 4,
+    STATE_STORAGE = 5,
+    STATE_UNIFORMS = 2,
+    STATE_SWITCHES = 24,
+    STATE_PACK = 5
+};
 
 typedef struct gl_indexed {
     GLint buffer;
@@ -17,7 +24,8 @@ typedef struct gl_state {
     GLint array_buffer, uniform_buffer, storage_buffer, counter_buffer, pack_buffer, unpack_buffer;
     gl_indexed storage[STATE_STORAGE], uniforms[STATE_UNIFORMS], counter;
     GLint image[STATE_IMAGES][6];
-    GLint viewport[4], scissor[4], depth_func, blend[6], clip[2], polygon_mode[2], pack_alignment;
+    GLint viewport[4], scissor[4], depth_func, blend[6], clip[2], polygon_mode[2], pack[STATE_PACK];
+    GLfloat depth_range[2];
     GLboolean depth_mask, color_mask[4], switches[STATE_SWITCHES];
 } gl_state;
 
