@@ -11,7 +11,6 @@
 #ifdef BALL_TEXELS
 #define LISTS_TEXELS
 #endif
-#define LISTS_TEXELS
 #include "lists.glsl"
 #include "chord.glsl"
 #include "stream.glsl"

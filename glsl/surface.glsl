@@ -22,6 +22,13 @@ vec4 color_of(uint ball) { return vec4(ball_color[ball], 0.0, 0.0, 1.0); }
 #endif
 #endif
 
+// From a ball's centre to the ray's point at t, in radii.
+REAL3 surface_from(REAL t, REAL middle, REAL3 way, REAL3 offset, REAL shrink)
+{
+    precise REAL3 from = ((t - middle) * way - offset) * shrink;
+    return from;
+}
+
 Surface surface_at(Ray ray, REAL t)
 {
     REAL value = -level.x;
@@ -37,7 +44,7 @@ Surface surface_at(Ray ray, REAL t)
         least = min(least, radius);
         REAL middle;
         REAL3 offset = chord_offset(here.centre - ray.start, ray.way, middle);
-        precise REAL3 from = ((t - middle) * ray.way - offset) * shrink; // from the centre, in radii
+        REAL3 from = surface_from(t, middle, ray.way, offset, shrink);
         REAL u = min(dot(from, from), NUM(1.0));
         REAL q = here.strength;
         REAL part = q * density_value(KERNEL, u);

@@ -114,7 +114,7 @@ typedef struct mns_field_info {
     double radius_min, radius_median, radius_max;
     double strength_min, strength_max;
     bool radius_is_uniform, has_strength;
-    const char *radius_source; /* "file", "host", "option", "default spacing", "van der Waals" */
+    const char *radius_source; /* "file", "host", "option", "generator", "default spacing", "van der Waals" */
     mns_kernel kernel;
     double iso;
     const char *format; /* "csv", "lammps", ..., "generator", "host" */
@@ -370,7 +370,7 @@ typedef struct mns_stats {
     int width, height;
     double ms[MNS_PHASE_COUNT]; /* milliseconds */
     double ms_total;            /* from the loaded scene to finished planes: without shade and readback */
-    bool timed;                 /* phases were bracketed by glFinish; on a GPU only the total is */
+    bool timed;                 /* options.measure: phases were bracketed by glFinish */
     uint64_t balls, balls_in_view;
     uint64_t pixels_hit, pixels_undecided;
     uint64_t list_nodes;        /* fragments gathered */

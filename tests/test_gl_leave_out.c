@@ -294,6 +294,37 @@ static void what_changed_is_sorted_and_uploaded_again(void **state)
     draw_fixture_check(d);
 }
 
+/* Frames of another size whose plan has no core depth lie between two that have it. */
+static void a_part_left_out_meanwhile_comes_back_in_the_new_size(void **state)
+{
+    draw_fixture *d = *state;
+    scene small = {"small", .generator = "scattered:300", .view = {SMALL},
+                   .options = {.solver = MNS_SOLVER_CUBIC}},
+          large = small;
+    large.view.width = 128;
+    large.view.height = 96;
+    mns_field *field = scene_field(&small);
+    mns_input_options no_core = {.iso = 1.5};
+    mns_input *input;
+    mns_field *bare;
+    assert_int_equal(mns_input_open(&small.generator, 1, &no_core, &input, NULL), MNS_OK);
+    assert_int_equal(mns_input_read(input, 0, &bare, NULL), MNS_OK);
+    renew(d);
+    mns_image *want = draw_image(d, field, &large.view, NULL, &large.options);
+    renew(d);
+    draw_scene(d, &small, field);
+    draw_scene(d, &large, bare);
+    mns_image *got = draw_image(d, field, &large.view, NULL, &large.options);
+    assert_true(draw_count_hits(want) > 1000);
+    draw_expect_same(want, got, "a frame after one of another size");
+    mns_image_destroy(want);
+    mns_image_destroy(got);
+    mns_input_close(input);
+    mns_field_destroy(bare);
+    mns_field_destroy(field);
+    draw_fixture_check(d);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -302,6 +333,7 @@ int main(void)
         cmocka_unit_test(a_scene_adds_only_what_is_new),
         cmocka_unit_test(the_same_again_makes_and_moves_nothing),
         cmocka_unit_test(what_changed_is_sorted_and_uploaded_again),
+        cmocka_unit_test(a_part_left_out_meanwhile_comes_back_in_the_new_size),
     };
     return cmocka_run_group_tests_name("leave_out", tests, draw_fixture_setup, draw_fixture_teardown);
 }

@@ -300,12 +300,12 @@ static mns_status option_pool(app_options *o, const char *name, const char *text
 
 static mns_status option_slots(app_options *o, const char *name, const char *text, mns_error *error)
 {
-    return parse_count(name, text, 1000000, &o->draw.slots, error);
+    return parse_count(name, text, 1024, &o->draw.slots, error);
 }
 
 static mns_status option_root_steps(app_options *o, const char *name, const char *text, mns_error *error)
 {
-    return parse_count(name, text, 1000000, &o->draw.root_steps, error);
+    return parse_count(name, text, 4096, &o->draw.root_steps, error);
 }
 
 static mns_status option_shuffle(app_options *o, const char *name, const char *text, mns_error *error)
@@ -368,7 +368,7 @@ static const option_row ROWS[] = {
     {"explain", 0, NULL, "print the plan and stop", option_explain},
     HEADING("Tests and diagnosis (slower; the image stays right):"),
     {"pool", 0, "N", "at most N list nodes at once; the frame is cut into tiles to fit", option_pool},
-    {"slots", 0, "N", "balls of a pixel's sorted window", option_slots},
+    {"slots", 0, "N", "balls of a ray at once before the slow path", option_slots},
     {"root-steps", 0, "N", "steps of a root search before the slow path", option_root_steps},
     {"shuffle", 0, "SEED", "put the gathered lists in a random order", option_shuffle},
 };

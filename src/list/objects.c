@@ -43,7 +43,9 @@ static void target_make_bare(gl_device *device, GLuint *target, int width, int h
 static mns_status buffers(list_passes *p, gl_device *device, const mns_plan *plan, mns_error *error)
 {
     size_t pixels = (size_t)p->width * (size_t)p->height;
-    size_t block = plan->limits.max_storage_block;
+    size_t block = plan->limits.max_storage_block, entry = 4 * sizeof(uint32_t);
+    p->redo_capacity = (block - sizeof(list_counts)) / entry; /* a larger frame is drawn in parts */
+    if (p->redo_capacity > pixels) p->redo_capacity = pixels;
     struct {
         gl_buffer *buffer;
         const char *what;
@@ -51,7 +53,7 @@ static mns_status buffers(list_passes *p, gl_device *device, const mns_plan *pla
     } wanted[] = {
         {&p->nodes, "node pool", plan->pool_nodes * LIST_NODE},
         {&p->counter, "node counter", sizeof(uint32_t)},
-        {&p->redo, "list of pixels to resolve", sizeof(list_counts) + pixels * 4 * sizeof(uint32_t)},
+        {&p->redo, "list of pixels to resolve", sizeof(list_counts) + p->redo_capacity * entry},
         {&p->view, "view", VIEW_VECTORS * 4 * sizeof(float)},
     };
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
@@ -71,6 +73,12 @@ mns_status list_passes_prepare(list_passes *p, gl_device *device, const mns_plan
     bool depth = plan->features & (FEATURE_CORE | FEATURE_HOST), host = plan->features & FEATURE_HOST;
     bool resized = width != p->width || height != p->height;
     if (!p->vertex_array) gl->GenVertexArrays(1, &p->vertex_array);
+    if (resized) { /* what this plan leaves out must not come back in the old size */
+        gl->DeleteTextures(1, &p->core_depth);
+        gl->DeleteTextures(1, &p->host_depth);
+        gl->DeleteFramebuffers(1, &p->depth_target);
+        p->core_depth = p->host_depth = p->depth_target = 0;
+    }
     if (resized || !p->heads) {
         texture_make(device, &p->heads, GL_R32UI, width, height);
         target_make(device, &p->heads_target, GL_COLOR_ATTACHMENT0, p->heads);

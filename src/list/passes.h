@@ -25,6 +25,7 @@ typedef struct list_passes {
     GLuint vertex_array;
     int width, height;
     size_t node_capacity;
+    size_t redo_capacity; /* pixels of a region at most */
 } list_passes;
 
 /* Makes or resizes what the plan needs, and no more. Errors: MEMORY, GL. */

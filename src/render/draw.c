@@ -1,35 +1,17 @@
 /* One frame from plan to planes to colour. */
+#include "render/draw.h"
+
 #include "base/clock.h"
 #include "base/status.h"
 #include "gl/state.h"
-#include "list/lengths.h"
-#include "list/pack.h"
 #include "list/uniforms.h"
 #include "render/host.h"
-#include "render/render.h"
-#include "shade/palette.h"
 #include "shade/shade.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-/* What the steps of one draw hand to each other. */
-typedef struct draw {
-    mns_renderer *r;
-    const mns_field *field;
-    const mns_plan *plan;
-    const mns_target *target; /* NULL without a host */
-    mns_frame *frame;
-    mns_stats *stats;
-    GLuint program[SHADER_COUNT];
-    list_lengths lengths;
-    double wide[VIEW_VECTORS * 4];
-    double last_mark, spent; /* clock at the last mark; milliseconds spent on figures, not on the frame */
-} draw;
-
 /* Closes a phase: what ran since the last mark is its time. */
-static void mark(draw *d, mns_phase phase)
+void draw_mark(draw *d, mns_phase phase)
 {
     if (d->plan->options.measure) d->r->device.gl.Finish();
     double now = clock_ms();
@@ -37,96 +19,14 @@ static void mark(draw *d, mns_phase phase)
     d->last_mark = now;
 }
 
-static bool same_balls(const draw *d)
+void draw_pause(draw *d)
 {
-    const render_last *last = &d->r->last;
-    const mns_plan *plan = d->plan;
-    return !plan->options.moved && last->field == d->field && last->stamp == d->field->stamp &&
-           last->features == plan->features && memcmp(&last->frame, &plan->frame, sizeof plan->frame) == 0 &&
-           memcmp(last->origin, plan->origin, sizeof last->origin) == 0 &&
-           last->color_column == plan->color_column &&
-           memcmp(last->color_range, plan->color_range, sizeof last->color_range) == 0;
+    double now = clock_ms();
+    d->spent += now - d->last_mark;
+    d->last_mark = now;
 }
 
-static void remember(draw *d)
-{
-    const mns_plan *plan = d->plan;
-    render_last *last = &d->r->last;
-    *last = (render_last){
-        .field = d->field, .stamp = d->field->stamp, .features = plan->features, .frame = plan->frame};
-    memcpy(last->origin, plan->origin, sizeof last->origin);
-    last->color_column = plan->color_column;
-    memcpy(last->color_range, plan->color_range, sizeof last->color_range);
-}
-
-/* Maps a buffer of `floats` floats a ball and lets `which` fill it. */
-static mns_status upload(draw *d, gl_buffer *buffer, const char *what, size_t floats, int which,
-                         mns_error *error)
-{
-    gl_device *device = &d->r->device;
-    const list_order *order = &d->r->order;
-    size_t records = order->count + (which == 0 ? order->quads : 0);
-    size_t size = (records ? records : 1) * floats * sizeof(float);
-    void *data;
-    do {
-        mns_status status =
-            gl_buffer_reserve(device, buffer, what, size, d->plan->limits.max_storage_block, error);
-        if (!status) status = gl_buffer_map(device, buffer, size, &data, error);
-        if (status) return status;
-        switch (which) {
-        case 0:
-            list_pack_high(order, d->field, d->plan, data);
-            break;
-        case 1:
-            list_pack_low(order, d->field, d->plan, data);
-            break;
-        case 2:
-            list_pack_cores(order, d->field, data);
-            break;
-        default:
-            list_pack_colors(order, d->field, d->plan, data);
-            break;
-        }
-    } while (!gl_buffer_unmap(device, buffer));
-    return MNS_OK;
-}
-
-/* The indices that draw points farthest first; they change only when there are more balls than ever. */
-static mns_status count_backwards(draw *d, mns_error *error)
-{
-    gl_device *device = &d->r->device;
-    gl_buffer *buffer = &d->r->passes.backwards;
-    size_t size = d->r->order.count * sizeof(uint32_t);
-    uint32_t *index;
-    if (buffer->id && buffer->size >= size) return MNS_OK;
-    mns_status status = gl_buffer_reserve(device, buffer, "indices", size, 0, error);
-    do {
-        if (!status) status = gl_buffer_map(device, buffer, buffer->size, (void **)&index, error);
-        if (status) return status;
-        size_t count = buffer->size / sizeof *index;
-        for (size_t i = 0; i < count; i++) index[i] = (uint32_t)(count - 1 - i);
-    } while (!gl_buffer_unmap(device, buffer));
-    return MNS_OK;
-}
-
-static mns_status sort_and_upload(draw *d, mns_error *error)
-{
-    list_passes *p = &d->r->passes;
-    if (same_balls(d)) return MNS_OK;
-    d->r->last = (render_last){0};
-    mns_status status = list_order_make(&d->r->order, d->field, d->plan, error);
-    mark(d, MNS_PHASE_SORT);
-    if (!status) status = upload(d, &p->balls, "balls", d->plan->ball_floats, 0, error);
-    if (!status) status = count_backwards(d, error);
-    if (!status && d->plan->features & FEATURE_CORE_RADII)
-        status = upload(d, &p->cores, "core radii", 1, 2, error);
-    if (!status && d->plan->features & FEATURE_COLORS) status = upload(d, &p->colors, "colours", 1, 3, error);
-    mark(d, MNS_PHASE_UPLOAD);
-    if (!status) remember(d);
-    return status;
-}
-
-static void send(draw *d, gl_buffer *buffer, const void *data, size_t size)
+void draw_send(draw *d, gl_buffer *buffer, const void *data, size_t size)
 {
     const GladGLContext *gl = &d->r->device.gl;
     gl->BindBuffer(GL_UNIFORM_BUFFER, buffer->id);
@@ -139,10 +39,10 @@ static void set_view(draw *d, const double jitter[2])
     float narrow[VIEW_VECTORS * 4];
     double far_block[FAR_VECTORS * 4];
     list_view_block(d->plan, d->field, jitter, d->target, d->wide, narrow);
-    send(d, &d->r->passes.view, narrow, sizeof narrow);
+    draw_send(d, &d->r->passes.view, narrow, sizeof narrow);
     if (!(d->plan->features & FEATURE_FAR)) return;
     list_far_block(d->plan, far_block);
-    send(d, &d->r->passes.far_block, far_block, sizeof far_block);
+    draw_send(d, &d->r->passes.far_block, far_block, sizeof far_block);
 }
 
 /* A program that only some frames come to need: compiled when one does. */
@@ -152,21 +52,9 @@ static mns_status late_program(draw *d, plan_shader which, mns_error *error)
     gl_shader shader = {.defines = defines};
     plan_shader_files(which, &shader.vertex, &shader.fragment, &shader.compute);
     plan_shader_defines(d->plan, which, defines);
-    return gl_program_get(&d->r->device, &d->r->programs, &shader, &d->program[which], error);
-}
-
-/* The low words of the balls, when the first pixel needs doubles. */
-static mns_status upload_low(draw *d, mns_error *error)
-{
-    list_passes *p = &d->r->passes;
-    mns_status status = gl_buffer_reserve(&d->r->device, &p->view_wide, "view", sizeof d->wide, 0, error);
-    if (status) return status;
-    send(d, &p->view_wide, d->wide, sizeof d->wide);
-    if (d->r->last.low) return MNS_OK;
-    mark(d, MNS_PHASE_CAST);
-    status = upload(d, &p->balls_low, "balls", d->plan->ball_floats, 1, error);
-    d->r->last.low = !status;
-    mark(d, MNS_PHASE_UPLOAD);
+    draw_mark(d, MNS_PHASE_CAST);
+    mns_status status = gl_program_get(&d->r->device, &d->r->programs, &shader, &d->program[which], error);
+    draw_pause(d);
     return status;
 }
 
@@ -182,7 +70,7 @@ static mns_status resolve(draw *d, list_counts *counts, mns_error *error)
     }
     if (!counts->undecided_float) return MNS_OK;
     mns_status status = late_program(d, SHADER_RESOLVE, error);
-    if (!status) status = upload_low(d, error);
+    if (!status) status = draw_low_upload(d, error);
     if (status) return status;
     list_resolve(p, &d->r->device, d->plan, d->program[SHADER_RESOLVE], true, planes, counts);
     return MNS_OK;
@@ -195,8 +83,8 @@ static mns_status draw_halves(draw *d, list_region region, mns_error *error)
 {
     if (region.width == 1 && region.height == 1)
         return status_fail(error, MNS_ERROR_UNSUPPORTED,
-                           "pixel %d,%d: its list alone passes the node pool (%zu nodes)", region.x, region.y,
-                           d->plan->pool_most);
+                           "pixel %d,%d: its list alone passes the node pool (%zu nodes)", region.x,
+                           d->plan->frame.height - 1 - region.y, d->plan->pool_most);
     list_region first = region, second = region;
     if (region.height > 1) {
         first.height = region.height / 2;
@@ -210,14 +98,6 @@ static mns_status draw_halves(draw *d, list_region region, mns_error *error)
     d->stats->fallbacks.tiled++;
     mns_status status = draw_region(d, first, error);
     return status ? status : draw_region(d, second, error);
-}
-
-static void add_counts(mns_stats *stats, const list_counts *counts)
-{
-    stats->fallbacks.active_overflow += counts->active;
-    stats->fallbacks.root_cap += counts->steps;
-    stats->fallbacks.undecided_float += counts->undecided_float;
-    stats->pixels_undecided += counts->undecided;
 }
 
 static mns_status sort_lists(draw *d, list_region region, mns_error *error)
@@ -253,6 +133,7 @@ static mns_status draw_region(draw *d, list_region region, mns_error *error)
     gl_device *device = &d->r->device;
     list_passes *p = &d->r->passes;
     const mns_plan *plan = d->plan;
+    if ((size_t)region.width * (size_t)region.height > p->redo_capacity) return draw_halves(d, region, error);
     size_t nodes = list_gather(p, device, plan, &d->r->order, d->program, region);
     if (nodes > p->node_capacity) {
         if (nodes > plan->pool_most) return draw_halves(d, region, error);
@@ -264,22 +145,20 @@ static mns_status draw_region(draw *d, list_region region, mns_error *error)
             p->nodes.size / LIST_NODE < plan->pool_most ? p->nodes.size / LIST_NODE : plan->pool_most;
         nodes = list_gather(p, device, plan, &d->r->order, d->program, region);
     }
-    mark(d, MNS_PHASE_GATHER);
+    draw_mark(d, MNS_PHASE_GATHER);
     d->stats->tiles++;
     d->stats->list_nodes += nodes - 1;
     if (plan->options.measure) {
-        double begin = clock_ms();
         if (!list_lengths_add(&d->lengths, p, device, region, nodes))
             return status_no_memory(error, "while measuring the lists");
-        d->last_mark = clock_ms();
-        d->spent += d->last_mark - begin;
+        draw_pause(d);
     }
     if (plan->features & FEATURE_SHUFFLE) list_shuffle(p, device, plan, d->program, region);
     list_counts counts;
     mns_status status = cast(d, region, &counts, error);
     if (!status && counts.redo) status = resolve(d, &counts, error);
-    mark(d, MNS_PHASE_CAST);
-    add_counts(d->stats, &counts);
+    draw_mark(d, MNS_PHASE_CAST);
+    draw_counts_add(d->stats, &counts);
     return status;
 }
 
@@ -291,7 +170,7 @@ static mns_status draw_sample(draw *d, const double jitter[2], mns_error *error)
     set_view(d, jitter);
     if (plan->features & (FEATURE_CORE | FEATURE_HOST)) {
         list_core_depth(&d->r->passes, &d->r->device, plan, &d->r->order, d->program, whole);
-        mark(d, MNS_PHASE_CORE_DEPTH);
+        draw_mark(d, MNS_PHASE_CORE_DEPTH);
     }
     return draw_region(d, whole, error);
 }
@@ -302,7 +181,7 @@ static mns_status shade_sample(draw *d, int sample, const double jitter[2], mns_
     const GLuint planes[3] = {f->t, f->normal, f->color};
     mns_status status = shade_pass(&d->r->device, &d->r->shade, d->r->passes.vertex_array, d->plan,
                                    d->program[SHADER_SHADE], planes, f->shaded_target, sample, jitter, error);
-    mark(d, MNS_PHASE_SHADE);
+    draw_mark(d, MNS_PHASE_SHADE);
     return status;
 }
 
@@ -323,55 +202,9 @@ static mns_status draw_samples(draw *d, mns_error *error)
     d->lengths.count = 0;
     list_jitter(0, 1, jitter);
     status = draw_sample(d, jitter, error);
-    d->stats->ms_total = clock_ms() - d->stats->ms_total;
+    d->stats->ms_total = clock_ms() - d->stats->ms_total - d->stats->ms[MNS_PHASE_SHADE];
     if (!status && samples == 1) status = shade_sample(d, 0, jitter, error);
     return status;
-}
-
-static void start_stats(draw *d)
-{
-    static const char *const solvers[] = {"exact", "cubic", "cubic-monomial"};
-    const mns_plan *plan = d->plan;
-    mns_stats *stats = d->stats;
-    *stats = (mns_stats){0};
-    stats->method = "list";
-    stats->solver = solvers[plan->options.solver];
-    stats->gather = plan->options.gather == MNS_GATHER_PAPER ? "paper" : "early-z";
-    stats->width = plan->frame.width;
-    stats->height = plan->frame.height;
-    stats->timed = plan->options.measure;
-    stats->balls = d->field->p.count;
-    stats->color_by = plan->color_by;
-    stats->color_map = "";
-    stats->passes = plan->pass_count;
-    if (!(plan->features & FEATURE_COLORS) || plan->features & FEATURE_LABELS) return;
-    stats->color_map = mns_color_map_name(plan->look.color_map);
-    memcpy(stats->color_range, plan->color_range, sizeof stats->color_range);
-}
-
-/* Hit pixels, read back: only when figures were asked for. */
-static mns_status count_hits(draw *d, mns_error *error)
-{
-    const GladGLContext *gl = &d->r->device.gl;
-    size_t pixels = (size_t)d->stats->width * (size_t)d->stats->height;
-    float *t = malloc(pixels * 2 * sizeof *t);
-    if (!t) return status_no_memory(error, "while counting hits");
-    gl->BindTexture(GL_TEXTURE_2D, d->frame->t);
-    gl->GetTexImage(GL_TEXTURE_2D, 0, GL_RG, GL_FLOAT, t);
-    for (size_t i = 0; i < pixels; i++) d->stats->pixels_hit += t[2 * i] < INFINITY;
-    free(t);
-    return MNS_OK;
-}
-
-static uint64_t count_buffers(const mns_renderer *r)
-{
-    const list_passes *p = &r->passes;
-    const gl_buffer *all[] = {&p->balls,     &p->balls_low, &p->cores, &p->colors,
-                              &p->nodes,     &p->counter,   &p->redo,  &p->view,
-                              &p->view_wide, &p->far_block, &r->shade, &p->backwards};
-    uint64_t count = 0;
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) count += all[i]->id != 0;
-    return count;
 }
 
 static mns_status draw_all(draw *d, mns_error *error)
@@ -384,17 +217,17 @@ static mns_status draw_all(draw *d, mns_error *error)
     if (d->target) host_depth_take(&r->passes, &r->device, d->plan, d->target);
     r->device.gl.Finish();
     d->last_mark = d->stats->ms_total = clock_ms();
-    status = sort_and_upload(d, error);
+    status = draw_balls_upload(d, error);
     d->stats->balls_in_view = r->order.count;
     if (!status) status = draw_samples(d, error);
     d->stats->ms_total -= d->spent;
     if (!status && d->target)
         host_draw(&r->passes, &r->device, d->plan, d->target, d->program[SHADER_HOST_DRAW], d->frame->shaded,
                   d->frame->t);
-    if (!status && d->plan->options.measure) status = count_hits(d, error);
+    if (!status && d->plan->options.measure) status = draw_hits_count(d, error);
     list_lengths_finish(&d->lengths, d->stats);
     d->stats->programs = r->programs.count;
-    d->stats->buffers = count_buffers(r);
+    d->stats->buffers = draw_buffers_count(r);
     return status ? status : gl_check(&r->device, "drawing", error);
 }
 
@@ -413,7 +246,7 @@ static mns_status draw_frame(mns_renderer *r, const mns_field *field, const mns_
     frame->plan = plan;
     draw d = {.r = r, .field = field, .plan = plan, .target = target, .frame = frame, .stats = &frame->stats};
     gl_state state;
-    start_stats(&d);
+    draw_stats_start(&d);
     gl_state_take(&r->device, &state);
     status = draw_all(&d, error);
     gl_state_put_back(&r->device, &state);

@@ -1,0 +1,117 @@
+/* The balls of a frame on their way to the GPU. */
+#include "render/draw.h"
+
+#include "list/pack.h"
+
+#include <string.h>
+
+/* Features that change which balls are sent, how they are ordered and what is sent of each. */
+#define BALL_FEATURES                                                                                        \
+    (FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_CORE_RADII | FEATURE_POINTS | FEATURE_QUADS | FEATURE_FAR | \
+     FEATURE_COLORS | FEATURE_LABELS)
+
+static bool same_balls(const draw *d)
+{
+    const render_last *last = &d->r->last;
+    const mns_plan *plan = d->plan;
+    return !plan->options.moved && last->field == d->field && last->stamp == d->field->stamp &&
+           last->features == (plan->features & BALL_FEATURES) &&
+           memcmp(&last->frame, &plan->frame, sizeof plan->frame) == 0 &&
+           memcmp(last->origin, plan->origin, sizeof last->origin) == 0 &&
+           last->color_column == plan->color_column &&
+           memcmp(last->color_range, plan->color_range, sizeof last->color_range) == 0;
+}
+
+static void remember(draw *d)
+{
+    const mns_plan *plan = d->plan;
+    render_last *last = &d->r->last;
+    *last = (render_last){.field = d->field,
+                          .stamp = d->field->stamp,
+                          .features = plan->features & BALL_FEATURES,
+                          .frame = plan->frame};
+    memcpy(last->origin, plan->origin, sizeof last->origin);
+    last->color_column = plan->color_column;
+    memcpy(last->color_range, plan->color_range, sizeof last->color_range);
+}
+
+/* Maps a buffer of `floats` floats a ball and lets `which` fill it. */
+static mns_status upload(draw *d, gl_buffer *buffer, const char *what, size_t floats, int which,
+                         mns_error *error)
+{
+    gl_device *device = &d->r->device;
+    const list_order *order = &d->r->order;
+    size_t records = order->count + (which == 0 ? order->quads : 0);
+    size_t size = (records ? records : 1) * floats * sizeof(float);
+    void *data;
+    do {
+        mns_status status =
+            gl_buffer_reserve(device, buffer, what, size, d->plan->limits.max_storage_block, error);
+        if (!status) status = gl_buffer_map(device, buffer, size, &data, error);
+        if (status) return status;
+        switch (which) {
+        case 0:
+            list_pack_high(order, d->field, d->plan, data);
+            break;
+        case 1:
+            list_pack_low(order, d->field, d->plan, data);
+            break;
+        case 2:
+            list_pack_cores(order, d->field, data);
+            break;
+        default:
+            list_pack_colors(order, d->field, d->plan, data);
+            break;
+        }
+    } while (!gl_buffer_unmap(device, buffer));
+    return MNS_OK;
+}
+
+/* The indices that draw points farthest first; they change only when there are more balls than ever. */
+static mns_status count_backwards(draw *d, mns_error *error)
+{
+    gl_device *device = &d->r->device;
+    gl_buffer *buffer = &d->r->passes.backwards;
+    size_t size = d->r->order.count * sizeof(uint32_t);
+    uint32_t *index;
+    if (buffer->id && buffer->size >= size) return MNS_OK;
+    mns_status status = gl_buffer_reserve(device, buffer, "indices", size, 0, error);
+    do {
+        if (!status) status = gl_buffer_map(device, buffer, buffer->size, (void **)&index, error);
+        if (status) return status;
+        size_t count = buffer->size / sizeof *index;
+        for (size_t i = 0; i < count; i++) index[i] = (uint32_t)(count - 1 - i);
+    } while (!gl_buffer_unmap(device, buffer));
+    return MNS_OK;
+}
+
+mns_status draw_balls_upload(draw *d, mns_error *error)
+{
+    list_passes *p = &d->r->passes;
+    if (same_balls(d)) return MNS_OK;
+    d->r->last = (render_last){0};
+    mns_status status = list_order_make(&d->r->order, d->field, d->plan, error);
+    draw_mark(d, MNS_PHASE_SORT);
+    if (!status) status = upload(d, &p->balls, "balls", d->plan->ball_floats, 0, error);
+    if (!status) status = count_backwards(d, error);
+    if (!status && d->plan->features & FEATURE_CORE_RADII)
+        status = upload(d, &p->cores, "core radii", 1, 2, error);
+    if (!status && d->plan->features & FEATURE_COLORS) status = upload(d, &p->colors, "colours", 1, 3, error);
+    draw_mark(d, MNS_PHASE_UPLOAD);
+    if (!status) remember(d);
+    return status;
+}
+
+mns_status draw_low_upload(draw *d, mns_error *error)
+{
+    list_passes *p = &d->r->passes;
+    mns_status status = gl_buffer_reserve(&d->r->device, &p->view_wide, "view", sizeof d->wide, 0, error);
+    if (status) return status;
+    draw_send(d, &p->view_wide, d->wide, sizeof d->wide);
+    if (d->r->last.low) return MNS_OK;
+    draw_mark(d, MNS_PHASE_CAST);
+    status = upload(d, &p->balls_low, "balls", d->plan->ball_floats, 1, error);
+    d->r->last.low = !status;
+    draw_mark(d, MNS_PHASE_UPLOAD);
+    return status;
+}

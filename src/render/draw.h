@@ -1,0 +1,42 @@
+/* The state of one draw, handed from step to step, and the steps that live in files of their own. */
+#ifndef MNS_RENDER_DRAW_H
+#define MNS_RENDER_DRAW_H
+
+#include "list/lengths.h"
+#include "list/uniforms.h"
+#include "render/render.h"
+
+typedef struct draw {
+    mns_renderer *r;
+    const mns_field *field;
+    const mns_plan *plan;
+    const mns_target *target; /* NULL without a host */
+    mns_frame *frame;
+    mns_stats *stats;
+    GLuint program[SHADER_COUNT];
+    list_lengths lengths;
+    double wide[VIEW_VECTORS * 4];
+    double last_mark,
+        spent; /* clock at the last mark; milliseconds spent on figures and compilers, not on the frame */
+} draw;
+
+/* Closes a phase: what ran since the last mark is its time. */
+void draw_mark(draw *d, mns_phase phase);
+/* What ran since the last mark is no part of the frame. */
+void draw_pause(draw *d);
+void draw_send(draw *d, gl_buffer *buffer, const void *data, size_t size);
+
+/* balls.c: sorts and uploads the balls in view, unless they are there already. Errors: MEMORY, UNSUPPORTED.
+ */
+mns_status draw_balls_upload(draw *d, mns_error *error);
+/* The low words of the balls and the view in doubles, when the first pixel needs them. */
+mns_status draw_low_upload(draw *d, mns_error *error);
+
+/* figures.c */
+void draw_stats_start(draw *d);
+void draw_counts_add(mns_stats *stats, const list_counts *counts);
+uint64_t draw_buffers_count(const mns_renderer *r);
+/* Hit pixels, read back: only when figures were asked for. Errors: MEMORY. */
+mns_status draw_hits_count(draw *d, mns_error *error);
+
+#endif
