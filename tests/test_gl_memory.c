@@ -1,0 +1,155 @@
+/* What a long run holds: nothing grows from frame to frame, nor from renderer to renderer. */
+#include "support/draw_fixture.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* A line of /proc/self/status in KiB: "VmHWM" the most that was ever resident, "VmRSS" what is. */
+static long memory_kib(const char *name)
+{
+    char line[256];
+    long kib = -1;
+    FILE *file = fopen("/proc/self/status", "r");
+    assert_non_null(file);
+    while (fgets(line, sizeof line, file))
+        if (strncmp(line, name, strlen(name)) == 0 && line[strlen(name)] == ':')
+            kib = atol(line + strlen(name) + 1);
+    fclose(file);
+    assert_true(kib > 0);
+    return kib;
+}
+
+static uint64_t draw_frame(draw_fixture *d, mns_input *input, size_t index, mns_view *view)
+{
+    mns_error error;
+    mns_field *field;
+    mns_view fitted;
+    if (mns_input_read(input, index, &field, &error) != MNS_OK) fail_msg("%s", error.text);
+    assert_int_equal(mns_view_resolve(view, field, &fitted, &error), MNS_OK);
+    *view = fitted; /* by the first frame */
+    mns_image *image = draw_image(d, field, view, NULL, &(mns_options){.moved = true});
+    assert_true(draw_count_hits(image) > 50);
+    mns_image_destroy(image);
+    mns_field_destroy(field);
+    return d->stats.fallbacks.undecided_float;
+}
+
+/* A sequence as the program draws one: each frame read, drawn as moved, read back. The slow paths' programs,
+ * 10 MB of the driver's, are compiled when a pixel first needs them, which in frames as small as these may be
+ * late: what is measured begins when they are there. */
+static void three_hundred_frames_need_no_more_than_twenty(void **state)
+{
+    draw_fixture *d = *state;
+    static const char *const name = "tornado:1500:1:300";
+    mns_error error;
+    mns_input *input;
+    long at_twenty = 0;
+    mns_view view = {.width = 64, .height = 48};
+    if (mns_input_open(&name, 1, NULL, &input, &error) != MNS_OK) fail_msg("%s", error.text);
+    assert_int_equal(mns_input_frames(input), 300);
+    for (size_t i = 0; i < 300 && !draw_frame(d, input, i, &view); i++) {}
+    for (size_t i = 0; i < 300; i++) {
+        draw_frame(d, input, i, &view);
+        if (i == 20) at_twenty = memory_kib("VmHWM");
+    }
+    long grown = memory_kib("VmHWM") - at_twenty;
+    if (grown > 1024) fail_msg("frame 300 needs %ld KiB more than frame 20 did (%ld)", grown, at_twenty);
+    mns_input_close(input);
+    draw_fixture_check(d);
+}
+
+/* GL names in use, counted by asking for each of the first ones: what a renderer leaves behind would stay
+ * here. */
+static size_t count_names(const GladGLContext *gl)
+{
+    size_t count = 0;
+    for (GLuint name = 1; name < 400; name++)
+        count += gl->IsBuffer(name) + gl->IsTexture(name) + gl->IsFramebuffer(name) + gl->IsProgram(name) +
+                 gl->IsShader(name) + gl->IsVertexArray(name) + gl->IsQuery(name) + gl->IsSampler(name);
+    return count;
+}
+
+static void draw_with_own_renderer(draw_fixture *d, const mns_field *field, const mns_view *view,
+                                   const mns_options *options)
+{
+    draw_fixture own = {.gl = d->gl};
+    mns_error error;
+    if (mns_renderer_create(mns_context_get_proc(d->gl.context), &own.renderer, &error) != MNS_OK)
+        fail_msg("%s", error.text);
+    assert_int_equal(mns_frame_create(own.renderer, &own.frame, &error), MNS_OK);
+    mns_image *image = draw_image(&own, field, view, NULL, options);
+    assert_true(draw_count_hits(image) > 50);
+    mns_image_destroy(image);
+    mns_frame_destroy(own.frame);
+    mns_renderer_destroy(own.renderer);
+}
+
+static void renderers_leave_nothing_behind(void **state)
+{
+    draw_fixture *d = *state;
+    mns_view view = {.width = 64, .height = 48};
+    size_t fixed = count_names(&d->gl.gl);
+    mns_field *field = draw_generated("dense:300", MNS_KERNEL_POLY3);
+    const mns_options options[] = {
+        {0}, {.slots = 2, .shuffle = 3, .samples = 2}}; /* the slow paths' objects too */
+    for (size_t i = 0; i < 2; i++) {
+        size_t names[2]; /* the driver may hold on to the program that was used last, but to no more */
+        for (size_t k = 0; k < 2; k++) {
+            draw_with_own_renderer(d, field, &view, &options[i]);
+            names[k] = count_names(&d->gl.gl);
+        }
+        assert_true(names[0] <= fixed + 3);
+        assert_int_equal(names[1], names[0]);
+    }
+    long resident = 0;
+    for (int i = 0; i < 4; i++) {
+        draw_with_own_renderer(d, field, &view, &options[0]);
+        if (i == 0) resident = memory_kib("VmRSS");
+    }
+    long grown = memory_kib("VmRSS") - resident;
+    if (grown > 3 * 512) fail_msg("3 renderers left %ld KiB behind", grown); /* a compiler's crumbs */
+    mns_field_destroy(field);
+    gl_fixture_check(&d->gl);
+}
+
+static void frames_of_changing_size_leave_nothing_behind(void **state)
+{
+    draw_fixture *d = *state;
+    mns_field *field = draw_generated("dense:300", MNS_KERNEL_POLY3);
+    mns_error error;
+    size_t names = 0;
+    long resident = 0;
+    for (int i = 0; i < 60; i++) {
+        mns_frame *frame;
+        mns_view view = {.width = 200 + i % 7, .height = 150 - i % 5};
+        assert_int_equal(mns_frame_create(d->renderer, &frame, &error), MNS_OK);
+        for (int k = 0; k < 2; k++) { /* resized once */
+            view.width -= 50 * k;
+            if (mns_renderer_draw(d->renderer, field, &view, NULL, NULL, frame, &error) != MNS_OK)
+                fail_msg("%s", error.text);
+        }
+        mns_frame_destroy(frame);
+        if (i == 20) names = count_names(&d->gl.gl), resident = memory_kib("VmRSS");
+    }
+    assert_true(count_names(&d->gl.gl) <= names);
+    long grown = memory_kib("VmRSS") - resident;
+    if (grown > 1024) fail_msg("40 frames left %ld KiB behind", grown);
+    mns_field_destroy(field);
+    draw_fixture_check(d);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(three_hundred_frames_need_no_more_than_twenty),
+        cmocka_unit_test(renderers_leave_nothing_behind),
+        cmocka_unit_test(frames_of_changing_size_leave_nothing_behind),
+    };
+    return cmocka_run_group_tests_name("memory", tests, draw_fixture_setup, draw_fixture_teardown);
+}
