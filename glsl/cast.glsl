@@ -14,6 +14,9 @@
 #include "lists.glsl"
 #include "chord.glsl"
 #include "stream.glsl"
+#if SOLVER != SOLVER_EXACT
+#define MIDDLES // of chords are separators too
+#endif
 #include "active_slots.glsl"
 #if SOLVER == SOLVER_EXACT && KERNEL <= DENSITY_WYVILL
 #if KERNEL == DENSITY_POLY2
@@ -30,7 +33,6 @@
 #include "bernstein.glsl"
 #include "taylor.glsl"
 #else
-#define MIDDLES
 #define DEGREE 3
 #include "bernstein.glsl"
 #if SOLVER == SOLVER_CUBIC
