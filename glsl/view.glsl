@@ -38,9 +38,10 @@ const REAL view_reach = NUM(0.0);
 // The raw direction through a pixel position: its forward component is 1.
 REAL3 view_raw(vec2 pixel)
 {
-    REAL x = NUM(pixel.x) + depth.z;
-    REAL y = NUM(pixel.y) + depth.w;
-    return corner.xyz + x * step_x.xyz + y * step_y.xyz;
+    // From the frame's middle: counted from a corner, a wide view's directions would carry the rounding of the corner's.
+    REAL x = NUM(pixel.x) - NUM(0.5) * lens.z + depth.z;
+    REAL y = NUM(pixel.y) - NUM(0.5) * lens.w + depth.w;
+    return forward.xyz + x * step_x.xyz + y * step_y.xyz;
 }
 
 Ray view_ray(vec2 pixel)

@@ -231,6 +231,16 @@ static void a_field_far_from_zero_is_exact(void **state)
     expect_cloud(*state, "offset 1e6", &moved, MNS_KERNEL_PERLIN, &view);
 }
 
+static void a_very_wide_field_of_view_is_exact(void **state)
+{
+    mns_view view =
+        draw_view((const double[3]){0.5, 0.5, 1.3}, (const double[3]){0.5, 0.5, 0.5}, 150, WIDE, HIGH);
+    mns_field *field = cloud_field(&plain, MNS_KERNEL_POLY4);
+    brute_report r = expect_exact(*state, "150 degrees", field, &view);
+    assert_true(r.hits > 100);
+    mns_field_destroy(field);
+}
+
 /* ---- Few balls, and none ---- */
 
 static void one_ball_is_a_sphere(void **state)
@@ -363,6 +373,7 @@ int main(void)
         cmocka_unit_test(an_eye_inside_the_surface_sees_the_way_out),
         cmocka_unit_test(a_far_eye_is_exact_to_a_small_part_of_a_radius),
         cmocka_unit_test(a_field_far_from_zero_is_exact),
+        cmocka_unit_test(a_very_wide_field_of_view_is_exact),
         cmocka_unit_test(one_ball_is_a_sphere),
         cmocka_unit_test(coincident_balls_add_up),
         cmocka_unit_test(an_empty_field_is_background),
