@@ -14,6 +14,7 @@
 #include "lists.glsl"
 #include "chord.glsl"
 #include "stream.glsl"
+#include "loops.glsl"
 #if SOLVER != SOLVER_EXACT
 #define MIDDLES // of chords are separators too
 #endif
@@ -108,6 +109,7 @@ int cast_walk(uint head, float limit, out float s)
             if (work > WALK_BUDGET) break;
         }
         if (!may) {
+            if (!(stream_near <= stop || stream_near > stop)) return PIECE_CAP; // not a number
             if (slot_overflow || work > WALK_BUDGET) return PIECE_CAP;
             if ((stop == FAR_AWAY && stream_near == FAR_AWAY) || s >= limit) return PIECE_NONE;
             continue;

@@ -2,8 +2,11 @@
 // the order in which they were drawn, which GL allows.
 #define LISTS_ACCESS
 #include "lists.glsl"
+#include "redo.glsl"
+#include "loops.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
+layout(location = 0) uniform int two; // 2
 layout(location = 1) uniform ivec4 region; // lower left corner, size: other lists may be a former region's
 
 bool list_before(uint node_a, uint node_b)
@@ -24,4 +27,5 @@ void main()
         node = link.y;
     }
     if (!ordered) imageStore(list_heads, at, uvec4(list_sort(head)));
+    if (!loops_whole(two)) atomicAdd(count_disorder, 1u); // the driver cut the sort short: nodes may be lost
 }

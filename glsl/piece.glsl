@@ -92,5 +92,8 @@ int piece_solve(REAL s, REAL stop, REAL side, int steps, out REAL hit)
     REAL x;
     int found = bernstein_first(piece_b, piece_margin, steps, x);
     hit = s + x * (stop - s);
+#ifdef EYE_INSIDE
+    if (found == PIECE_HIT && !(hit > NUM(0.0))) found = PIECE_OPEN; // the eye is on the surface: which side follows is open
+#endif
     return found;
 }

@@ -10,6 +10,7 @@
 #include "lists.glsl"
 #include "chord.glsl"
 #include "stream.glsl"
+#include "loops.glsl"
 #include "active_links.glsl"
 #if KERNEL <= DENSITY_WYVILL
 #if KERNEL == DENSITY_POLY2
@@ -75,7 +76,7 @@ int resolve_walk(REAL limit, inout REAL s)
 
 void main()
 {
-    uint index = gl_GlobalInvocationID.x;
+    uint index = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * uint(REDO_GROUP);
     if (index >= redo_count) return;
     uvec4 entry = redo_entry[index];
     if (entry.y != RESOLVE_STATE) return;

@@ -13,12 +13,3 @@ float stream_distance(float a, float b, float radius)
 #endif
     return distance - radius - 8.0e-6 * (abs(middle) + radius + float(view_reach));
 }
-
-// A driver may end loops by force (llvmpipe: 65,535 rounds an invocation, all loops together). What ran until then cannot be
-// trusted, so every walk ends with this: false where loops no longer run their rounds. `two` must be 2, and not a constant.
-bool loops_whole(int two)
-{
-    int rounds = 0;
-    for (int i = 0; i < two; i++) rounds++;
-    return rounds == 2;
-}

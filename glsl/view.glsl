@@ -54,7 +54,10 @@ Ray view_ray(vec2 pixel)
     precise REAL3 from = start.xyz + (NUM(pixel.x) + depth.z) * start_x.xyz + (NUM(pixel.y) + depth.w) * start_y.xyz;
     ray.start = from;
     view_reach = sqrt(dot(from, from));
-    view_excess = depth.y * (dot(raw, raw) - NUM(1.0)) / (sqrt(dot(raw, raw)) + NUM(1.0));
+    // raw is forward and this to the side: no cancellation, however far the eye.
+    REAL2 side = (NUM(2.0) * (REAL2(pixel) + depth.zw) / lens.zw - NUM(1.0)) / lens.xy;
+    REAL tilt = dot(side, side);
+    view_excess = depth.y * tilt / (sqrt(NUM(1.0) + tilt) + NUM(1.0));
 #else
     ray.start = REAL3(0.0);
 #endif

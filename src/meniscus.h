@@ -2,7 +2,8 @@
  *
  * The field is f(x) = sum of q_i k(|x - p_i| / R_i); the surface is f = L ("iso level"), inside is f > L.
  * A descriptor filled with zeros means the defaults. Every object has one create (or open, load, read) and
- * one null-safe destroy. Lengths are in scene units, angles in degrees, colours linear in [0, 1].
+ * one null-safe destroy. Lengths are in scene units, angles in degrees; colours are sRGB in [0, 1] in a look,
+ * linear in planes and images.
  *
  * Errors: a function that can fail returns an mns_status and, when `error` is not NULL, fills it with one
  * line that says what went wrong, where, and what to do. On failure nothing is created and outputs are left
@@ -328,7 +329,9 @@ MNS_API mns_status mns_frame_create(mns_renderer *renderer, mns_frame **frame, m
 MNS_API void mns_frame_destroy(mns_frame *frame);
 
 /* Draws the field's surface into the frame's planes and shades it. view, look and options may be NULL
- * (defaults). The GL state that it changes is put back as it was. Errors: USAGE, MEMORY, GL, UNSUPPORTED. */
+ * (defaults). The GL state that it changes is put back as it was, but for what
+ * is set by index (viewports, scissors, blending and colour masks of draw buffers beyond the first); pending
+ * GL errors are cleared. Errors: USAGE, MEMORY, GL, UNSUPPORTED. */
 MNS_API mns_status mns_renderer_draw(mns_renderer *renderer, const mns_field *field, const mns_view *view,
                                      const mns_look *look, const mns_options *options, mns_frame *frame,
                                      mns_error *error);
@@ -386,7 +389,7 @@ typedef struct mns_stats {
         uint64_t undecided_float; /* pixels that float could not decide, solved again in double */
     } fallbacks;
     uint64_t programs, passes,
-        buffers;           /* made for this frame's plan: compiled programs, passes run, buffers held */
+        buffers;           /* compiled and held by the renderer so far; passes of this frame's plan */
     double color_range[2]; /* legend: what the ends of the colour map stand for; 0,0 without */
     const char *color_by, *color_map; /* "" without */
 } mns_stats;

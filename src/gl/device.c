@@ -41,13 +41,16 @@ static void read_limits(gl_device *device)
                                        strstr(renderer, "swr") || strstr(renderer, "SWR"));
 }
 
-/* GL_KHR_debug is core from 4.3; reports go where they are cheap: only into a counter and a line. */
-static void listen(gl_device *device, bool on)
+/* GL_KHR_debug is core from 4.3. A callback of the host's is left alone: then messages are the host's to see.
+ */
+static void listen(gl_device *device)
 {
     const GladGLContext *gl = &device->gl;
-    if (!gl->DebugMessageCallback) return;
-    if (on) gl->Enable(GL_DEBUG_OUTPUT);
-    gl->DebugMessageCallback(on ? on_message : NULL, on ? device : NULL);
+    void *theirs = NULL;
+    gl->GetPointerv(GL_DEBUG_CALLBACK_FUNCTION, &theirs);
+    if (theirs) return;
+    gl->Enable(GL_DEBUG_OUTPUT);
+    gl->DebugMessageCallback(on_message, device);
 }
 
 mns_status gl_device_open(gl_device *device, mns_get_proc get_proc, mns_error *error)
@@ -68,13 +71,17 @@ mns_status gl_device_open(gl_device *device, mns_get_proc get_proc, mns_error *e
     const char *text = (const char *)device->gl.GetString(GL_VERSION);
     snprintf(device->name, sizeof device->name, "%s, %s", renderer ? renderer : "?", text ? text : "?");
     read_limits(device);
-    listen(device, true);
+    listen(device);
     return MNS_OK;
 }
 
 void gl_device_close(gl_device *device)
 {
-    if (device->gl.GetString) listen(device, false);
+    const GladGLContext *gl = &device->gl;
+    void *user = NULL;
+    if (!gl->GetPointerv) return;
+    gl->GetPointerv(GL_DEBUG_CALLBACK_USER_PARAM, &user);
+    if (user == device) gl->DebugMessageCallback(NULL, NULL);
 }
 
 mns_status gl_check(gl_device *device, const char *where, mns_error *error)

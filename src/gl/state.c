@@ -89,6 +89,8 @@ static void take_bindings(const GladGLContext *gl, gl_state *s)
 void gl_state_take(gl_device *device, gl_state *s)
 {
     const GladGLContext *gl = &device->gl;
+    while (gl->GetError() != GL_NO_ERROR) { /* the host's own, which would be taken for ours */
+    }
     take_bindings(gl, s);
     gl->BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     gl->BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);

@@ -6,7 +6,7 @@
 
 typedef struct list_lengths {
     uint32_t *length; /* of every non-empty list seen */
-    size_t count, capacity;
+    size_t count;
 } list_lengths;
 
 /* Reads a region's lists back and notes their lengths. False: out of memory. */

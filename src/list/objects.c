@@ -95,7 +95,9 @@ mns_status list_passes_prepare(list_passes *p, gl_device *device, const mns_plan
     mns_status status = buffers(p, device, plan, error);
     p->node_capacity =
         p->nodes.size / LIST_NODE < plan->pool_most ? p->nodes.size / LIST_NODE : plan->pool_most;
-    return status ? status : gl_check(device, "list buffers", error);
+    if (!status) status = gl_check(device, "list buffers", error);
+    if (status) p->width = p->height = 0; /* made anew by the next draw */
+    return status;
 }
 
 void list_passes_free(list_passes *p, gl_device *device)

@@ -4,7 +4,7 @@
 
 #include "plan/plan.h"
 
-/* A ball as it goes to the GPU: position relative to the plan's origin, in two floats, and where it stands in
+/* A ball as it goes to the GPU: position relative to the plan's origin, in floats, and where it stands in
  * the field. */
 typedef struct list_ball {
     float position[3];

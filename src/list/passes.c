@@ -2,7 +2,7 @@
 
 #include <stddef.h>
 
-enum { UNIFORM_LAST_BALL = 0, UNIFORM_CAPACITY = 1, UNIFORM_SEED = 0, UNIFORM_REGION = 1 };
+enum { UNIFORM_LAST_BALL = 0, UNIFORM_CAPACITY = 1, UNIFORM_SEED = 0, UNIFORM_TWO = 0, UNIFORM_REGION = 1 };
 
 static void scissor(gl_device *device, const list_passes *p, list_region region)
 {
@@ -128,6 +128,9 @@ size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, cons
     gl->BindFramebuffer(GL_FRAMEBUFFER, p->heads_target);
     scissor(device, p, region);
     gl->ClearBufferuiv(GL_COLOR, 0, none);
+    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->nodes.id);
+    gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof none,
+                      none); /* node 0 is looked at past every list's end */
     gl->BindBuffer(GL_ATOMIC_COUNTER_BUFFER, p->counter.id);
     gl->BufferSubData(GL_ATOMIC_COUNTER_BUFFER, 0, sizeof zero, &zero);
     gl->BindFramebuffer(GL_FRAMEBUFFER, tested && !paper ? p->depth_target : p->bare_target);
@@ -149,11 +152,19 @@ size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, cons
     draw_balls(p, device, plan, order, program[SHADER_GATHER_QUADS], program[SHADER_GATHER_POINTS], true);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                       GL_ATOMIC_COUNTER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
-                      GL_TEXTURE_FETCH_BARRIER_BIT);
+                      GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     GLuint wanted = 0;
     gl->GetBufferSubData(GL_ATOMIC_COUNTER_BUFFER, 0, sizeof wanted, &wanted);
     gl->Disable(GL_DEPTH_TEST);
     return (size_t)wanted + 1; /* node 0 ends the lists */
+}
+
+static void read_counts(list_passes *p, gl_device *device, list_counts *counts)
+{
+    const GladGLContext *gl = &device->gl;
+    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
+    gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof *counts, counts);
 }
 
 /* A compute pass over a region's lists, a pixel an invocation. */
@@ -165,13 +176,21 @@ static void visit_lists(list_passes *p, gl_device *device, list_region region)
     gl->Uniform4i(UNIFORM_REGION, region.x, region.y, region.width, region.height);
     gl->DispatchCompute((GLuint)(region.width + 7) / 8, (GLuint)(region.height + 7) / 8, 1);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                      GL_TEXTURE_FETCH_BARRIER_BIT);
+                      GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
-void list_sort_nodes(list_passes *p, gl_device *device, GLuint program, list_region region)
+void list_sort_nodes(list_passes *p, gl_device *device, GLuint program, list_region region,
+                     list_counts *counts)
 {
-    device->gl.UseProgram(program);
+    const GladGLContext *gl = &device->gl;
+    const list_counts none = {0};
+    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
+    gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof none, &none);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, p->redo.id);
+    gl->UseProgram(program);
+    gl->Uniform1i(UNIFORM_TWO, 2);
     visit_lists(p, device, region);
+    read_counts(p, device, counts);
 }
 
 void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],
@@ -211,14 +230,6 @@ static void bind_lists(list_passes *p, gl_device *device, const mns_plan *plan)
     gl->BindTexture(GL_TEXTURE_2D, p->host_depth);
 }
 
-static void read_counts(list_passes *p, gl_device *device, list_counts *counts)
-{
-    const GladGLContext *gl = &device->gl;
-    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
-    gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof *counts, counts);
-}
-
 void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],
                GLuint target, list_region region, list_counts *counts)
 {
@@ -240,7 +251,9 @@ static void dispatch_resolve(list_passes *p, gl_device *device, list_counts *cou
     const uint32_t zero = 0;
     gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
     gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, offsetof(list_counts, unfinished), sizeof zero, &zero);
-    gl->DispatchCompute((counts->redo + RESOLVE_GROUP - 1) / RESOLVE_GROUP, 1, 1);
+    const GLuint most = 65535, groups = (counts->redo + RESOLVE_GROUP - 1) / RESOLVE_GROUP;
+    gl->DispatchCompute(groups < most ? groups : most, (groups + most - 1) / most,
+                        1); /* GL promises 65,535 a side */
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                       GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT |
                       GL_PIXEL_BUFFER_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);

@@ -45,8 +45,10 @@ void list_core_depth(list_passes *p, gl_device *device, const mns_plan *plan, co
 size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
                    const GLuint program[SHADER_COUNT], list_region region);
 
-/* Puts every list of a region in the order of the balls. */
-void list_sort_nodes(list_passes *p, gl_device *device, GLuint program, list_region region);
+/* Puts every list of a region in the order of the balls. counts->disorder: pixels at which the driver cut the
+ * sort short. */
+void list_sort_nodes(list_passes *p, gl_device *device, GLuint program, list_region region,
+                     list_counts *counts);
 
 void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],
                   list_region region);

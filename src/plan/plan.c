@@ -166,9 +166,10 @@ static void plan_billboards(mns_plan *plan, const mns_field *field)
 static void plan_rest(mns_plan *plan, bool host)
 {
     const mns_options *options = &plan->options;
-    if (host)
+    if (host) {
         plan->features |= FEATURE_HOST;
-    else
+        plan->look.background[3] = 0; /* what stands behind is the host's */
+    } else
         leave_out(plan, "a host's depth", "no host framebuffer");
     if (options->gather == MNS_GATHER_PAPER) plan->features |= FEATURE_PAPER;
     if (options->shuffle) plan->features |= FEATURE_SHUFFLE;
@@ -237,6 +238,11 @@ static mns_status check_limits(const mns_plan *plan, const mns_field *field, mns
     if (width > most_x || height > most_y)
         return status_fail(error, MNS_ERROR_UNSUPPORTED, "size %dx%d: this driver draws at most %dx%d", width,
                            height, most_x, most_y);
+    const double smallest = 1e-15, largest = 1e15; /* what floats can square, and the square again */
+    if (field->p.count && (field->radius_min < smallest || plan->facts.farthest > largest))
+        return status_fail(error, MNS_ERROR_UNSUPPORTED,
+                           "radii from %g and distances to %g: floats hold %g to %g here; rescale the input",
+                           field->radius_min, plan->facts.farthest, smallest, largest);
     size_t most = limits->max_storage_block / (plan->ball_floats * sizeof(float));
     if (plan->features & FEATURE_QUADS) most /= 2; /* rectangles are kept twice */
     if (field->p.count > most || field->p.count > 0x7fffffff)

@@ -105,15 +105,21 @@ static mns_status sort_lists(draw *d, list_region region, mns_error *error)
     mns_status status = late_program(d, SHADER_ORDER, error);
     if (status) return status;
     d->stats->fallbacks.lists_sorted++;
-    list_sort_nodes(&d->r->passes, &d->r->device, d->program[SHADER_ORDER], region);
-    return MNS_OK;
+    list_counts counts;
+    list_sort_nodes(&d->r->passes, &d->r->device, d->program[SHADER_ORDER], region, &counts);
+    if (!counts.disorder) return MNS_OK;
+    return status_fail(error, MNS_ERROR_GL,
+                       "%s cannot sort the lists of %u pixels; draw fewer balls or a smaller frame",
+                       d->r->device.name, counts.disorder);
 }
 
 /* Casts a region's lists. Where they turn out not to be in order they are sorted and cast again; from then on
  * they are sorted first. */
 static mns_status cast(draw *d, list_region region, list_counts *counts, mns_error *error)
 {
-    mns_status status = d->r->disordered ? sort_lists(d, region, error) : MNS_OK;
+    /* GL promises no order of fragments, and a cast sees only as much of a list as it reads. */
+    bool ordered = d->plan->limits.is_software && !(d->plan->features & FEATURE_SHUFFLE) && !d->r->disordered;
+    mns_status status = ordered ? MNS_OK : sort_lists(d, region, error);
     if (status) return status;
     list_cast(&d->r->passes, &d->r->device, d->plan, d->program, d->frame->planes_target, region, counts);
     if (!counts->disorder) return MNS_OK;
@@ -121,10 +127,7 @@ static mns_status cast(draw *d, list_region region, list_counts *counts, mns_err
     status = sort_lists(d, region, error);
     if (status) return status;
     list_cast(&d->r->passes, &d->r->device, d->plan, d->program, d->frame->planes_target, region, counts);
-    if (!counts->disorder) return MNS_OK;
-    return status_fail(error, MNS_ERROR_GL,
-                       "%s cannot sort the lists of %u pixels; draw fewer balls or a smaller frame",
-                       d->r->device.name, counts->disorder);
+    return MNS_OK;
 }
 
 /* Gathers and casts a region of the frame. */
@@ -250,6 +253,10 @@ static mns_status draw_frame(mns_renderer *r, const mns_field *field, const mns_
     gl_state_take(&r->device, &state);
     status = draw_all(&d, error);
     gl_state_put_back(&r->device, &state);
+    if (status) { /* what the planes hold now is nobody's */
+        mns_plan_destroy(frame->plan);
+        frame->plan = NULL;
+    }
     return status;
 }
 

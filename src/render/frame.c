@@ -75,7 +75,9 @@ mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
     f->width = width;
     f->height = height;
     f->has_color = color;
-    return gl_check(device, "frame", error);
+    mns_status status = gl_check(device, "frame", error);
+    if (status) drop_textures(f);
+    return status;
 }
 
 unsigned mns_frame_texture(const mns_frame *frame, mns_plane plane)

@@ -5,8 +5,8 @@
 #include "gl/buffer.h"
 #include "plan/plan.h"
 
-/* One sample's planes (textures t, normal, color or 0) into `target`; the first sample clears it, the others
- * add. */
+/* One sample's planes (textures t, normal, color or 0) into `target`; the first sample replaces what is
+ * there, the others add. */
 mns_status shade_pass(gl_device *device, gl_buffer *uniforms, GLuint vertex_array, const mns_plan *plan,
                       GLuint program, const GLuint plane[3], GLuint target, int sample,
                       const double jitter[2], mns_error *error);
