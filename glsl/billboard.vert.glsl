@@ -26,6 +26,25 @@ vec2 billboard_span(float x, float z, float radius)
     return vec2(x * z - root, x * z + root) / square;
 }
 
+#ifdef CORE_FLAT
+layout(location = 2) uniform float core_inner; // the square's half diagonal over the radius
+
+// A core sphere as a flat square, so that depth is laid down without running a fragment shader: no ray through the square passes the
+// centre farther away than `inner`, and so each has entered the core by |c| - sqrt(r^2 - inner^2). Less is hidden than by the sphere.
+void billboard_core(vec3 c, float z, float distance, float radius, inout vec2 low, inout vec2 high, inout float place)
+{
+    float slack = 4.0e-6 * (abs(c.x) + abs(c.y) + abs(c.z) + level.w);
+    float inner = core_inner * radius;
+    vec2 pixel = 2.0 / lens.zw;
+    vec2 centre = c.xy * lens.xy / z - depth.zw * pixel;
+    vec2 extent = (inner - slack) * 0.7071 * lens.xy / z - 0.02 * pixel;
+    bool good = z > 1.001 * radius && inner > slack;
+    low = good ? max(centre - extent, vec2(-1.0)) : vec2(1.0);
+    high = good ? min(centre + extent, vec2(1.0)) : vec2(1.0);
+    place = clamp((distance - sqrt(1.0 - core_inner * core_inner) * radius + slack) * depth.x, 0.0, 1.0);
+}
+#endif
+
 void main()
 {
 #ifdef RADII
@@ -63,9 +82,17 @@ void main()
     float nearest = away - radius;
 #endif
     float place = clamp((nearest - 2.0e-6 * (away - depth.y + level.w)) * depth.x, 0.0, 1.0);
+#ifdef CORE_FLAT
+    billboard_core(c, z, nearest + radius, radius, low, high, place);
+#endif
 #ifdef POINTS
     vec2 size = 0.5 * (high - low) * lens.zw;
+#ifdef CORE_FLAT
+    gl_PointSize = min(size.x, size.y) - 0.25; // must not cover more, whatever the driver rounds sizes to
+    if (gl_PointSize < 0.75) high = low;
+#else
     gl_PointSize = max(size.x, size.y) + 0.1;
+#endif
     vec2 corner_at = 0.5 * (low + high);
 #else
     vec2 corner_at = vec2((gl_VertexID & 1) == 0 ? low.x : high.x, (gl_VertexID & 2) == 0 ? low.y : high.y);

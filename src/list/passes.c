@@ -2,7 +2,14 @@
 
 #include <stddef.h>
 
-enum { UNIFORM_LAST_BALL = 0, UNIFORM_CAPACITY = 1, UNIFORM_SEED = 0, UNIFORM_TWO = 0, UNIFORM_REGION = 1 };
+enum {
+    UNIFORM_LAST_BALL = 0,
+    UNIFORM_CAPACITY = 1,
+    UNIFORM_SEED = 0,
+    UNIFORM_TWO = 0,
+    UNIFORM_INNER = 2,
+    UNIFORM_REGION = 1
+};
 
 static void scissor(gl_device *device, const list_passes *p, list_region region)
 {
@@ -97,6 +104,17 @@ static void draw_screen(list_passes *p, gl_device *device, GLuint program)
     gl->BindVertexArray(0);
 }
 
+static void set_inner(gl_device *device, const GLuint program[SHADER_COUNT], float inner)
+{
+    const GladGLContext *gl = &device->gl;
+    const plan_shader both[] = {SHADER_CORE_QUADS, SHADER_CORE_POINTS};
+    for (int i = 0; i < 2; i++) {
+        if (!program[both[i]]) continue;
+        gl->UseProgram(program[both[i]]);
+        gl->Uniform1f(UNIFORM_INNER, inner);
+    }
+}
+
 void list_core_depth(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,
                      const GLuint program[SHADER_COUNT], list_region region)
 {
@@ -116,7 +134,17 @@ void list_core_depth(list_passes *p, gl_device *device, const mns_plan *plan, co
     }
     if (!(plan->features & FEATURE_CORE)) return;
     gl->DepthFunc(GL_LESS);
-    draw_balls(p, device, plan, order, program[SHADER_CORE_QUADS], program[SHADER_CORE_POINTS], false);
+    if (!(plan->features & FEATURE_FLAT_CORES)) {
+        draw_balls(p, device, plan, order, program[SHADER_CORE_QUADS], program[SHADER_CORE_POINTS], false);
+        return;
+    }
+    /* Each sphere as a stack of squares, wide and deep to small and near: without a fragment shader several
+     * cost less than the one sphere. */
+    static const float inner[] = {0.97f, 0.75f};
+    for (size_t i = 0; i < sizeof inner / sizeof *inner; i++) {
+        set_inner(device, program, inner[i]);
+        draw_balls(p, device, plan, order, program[SHADER_CORE_QUADS], program[SHADER_CORE_POINTS], false);
+    }
 }
 
 size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, const list_order *order,

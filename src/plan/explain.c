@@ -8,6 +8,7 @@ static const char *const feature_names[FEATURE_COUNT] = {
     [10] = "points",      [11] = "quads",    [12] = "eye_in_ball", [13] = "eye_inside", [14] = "far",
     [15] = "host",        [16] = "shuffle",  [17] = "colors",      [18] = "labels",     [19] = "cel",
     [20] = "directional", [21] = "specular", [22] = "samples",     [23] = "clip_zero",  [24] = "texels",
+    [25] = "flat_cores",
 };
 
 static const char *const solver_names[] = {"exact", "cubic", "cubic-monomial"};

@@ -18,6 +18,10 @@ static const mns_limits least_limits = {
 /* A far eye: float rays would be off by more than detail before they reach the field (DESIGN, law 1). */
 #define FAR_RADII 30.0
 
+/* From so many balls on the core pass costs more than the longer lists that flat cores leave
+ * (docs/decisions.md). */
+#define FLAT_CORES_FROM 20000
+
 static void leave_out(mns_plan *plan, const char *part, const char *reason)
 {
     if (plan->left_out_count < PLAN_PARTS)
@@ -163,7 +167,7 @@ static void plan_billboards(mns_plan *plan, const mns_field *field)
         leave_out(plan, "rectangles for large balls", "every ball fits a point");
 }
 
-static void plan_rest(mns_plan *plan, bool host)
+static void plan_rest(mns_plan *plan, size_t balls, bool host)
 {
     const mns_options *options = &plan->options;
     if (host) {
@@ -172,6 +176,8 @@ static void plan_rest(mns_plan *plan, bool host)
     } else
         leave_out(plan, "a host's depth", "no host framebuffer");
     if (options->gather == MNS_GATHER_PAPER) plan->features |= FEATURE_PAPER;
+    bool many = balls >= FLAT_CORES_FROM && options->gather != MNS_GATHER_PAPER;
+    if (plan->features & FEATURE_CORE && many) plan->features |= FEATURE_FLAT_CORES;
     if (options->shuffle) plan->features |= FEATURE_SHUFFLE;
     if (options->samples > 1)
         plan->features |= FEATURE_SAMPLES;
@@ -274,7 +280,7 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
     status = plan_look(look, field, plan, error);
     if (!status) status = check_limits(plan, field, error);
     if (status) goto fail;
-    plan_rest(plan, host);
+    plan_rest(plan, field->p.count, host);
     plan_passes(plan);
     plan_pool(plan, field);
     if (!plan_explain(plan, field)) {

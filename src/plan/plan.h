@@ -27,10 +27,11 @@ enum plan_feature {
     FEATURE_CEL = 1 << 19,
     FEATURE_DIRECTIONAL = 1 << 20, /* a light of its own, not at the eye */
     FEATURE_SPECULAR = 1 << 21,
-    FEATURE_SAMPLES = 1 << 22,   /* more than one sample a pixel */
-    FEATURE_CLIP_ZERO = 1 << 23, /* clip control: depth without the 2z - 1 */
-    FEATURE_TEXELS = 1 << 24,    /* balls and lists are read as texels */
-    FEATURE_COUNT = 25
+    FEATURE_SAMPLES = 1 << 22,    /* more than one sample a pixel */
+    FEATURE_CLIP_ZERO = 1 << 23,  /* clip control: depth without the 2z - 1 */
+    FEATURE_TEXELS = 1 << 24,     /* balls and lists are read as texels */
+    FEATURE_FLAT_CORES = 1 << 25, /* core spheres laid down as flat squares, without a fragment shader */
+    FEATURE_COUNT = 26
 };
 
 enum { PLAN_MOST = 16 }; /* passes; parts left out are at most PLAN_PARTS */

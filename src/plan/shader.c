@@ -10,16 +10,16 @@ typedef struct shader_part {
 
 enum {
     READS_BALL = FEATURE_KERNEL | FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_FAR,
-    READS_RAY = READS_BALL | FEATURE_SOLVER | FEATURE_EYE_INSIDE | FEATURE_HOST |
-                FEATURE_COLORS | FEATURE_LABELS | FEATURE_TEXELS,
+    READS_RAY = READS_BALL | FEATURE_SOLVER | FEATURE_EYE_INSIDE | FEATURE_HOST | FEATURE_COLORS |
+                FEATURE_LABELS | FEATURE_TEXELS,
     READS_BILLBOARD = FEATURE_RADII | FEATURE_FAR | FEATURE_CLIP_ZERO,
 };
 
 static const shader_part parts[SHADER_COUNT] = {
     [SHADER_CORE_QUADS] = {"billboard.vert.glsl", "core.frag.glsl", NULL,
-                           READS_BILLBOARD | FEATURE_CORE_RADII},
+                           READS_BILLBOARD | FEATURE_CORE_RADII | FEATURE_FLAT_CORES},
     [SHADER_CORE_POINTS] = {"billboard.vert.glsl", "core.frag.glsl", NULL,
-                            READS_BILLBOARD | FEATURE_CORE_RADII},
+                            READS_BILLBOARD | FEATURE_CORE_RADII | FEATURE_FLAT_CORES},
     [SHADER_GATHER_QUADS] = {"billboard.vert.glsl", "gather.frag.glsl", NULL,
                              READS_BILLBOARD | FEATURE_EYE_IN_BALL | FEATURE_PAPER | FEATURE_CORE |
                                  FEATURE_HOST},
@@ -106,7 +106,10 @@ void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[
     defines[0] = '\0';
     if (shader == SHADER_CAST || shader == SHADER_WALK || shader == SHADER_RESOLVE)
         add_ray(plan, shader, defines, f);
-    if (shader == SHADER_CORE_QUADS || shader == SHADER_CORE_POINTS) add(defines, "CORE_SPHERE", 1);
+    if (shader == SHADER_CORE_QUADS || shader == SHADER_CORE_POINTS) {
+        add(defines, "CORE_SPHERE", 1);
+        if (f & FEATURE_FLAT_CORES) add(defines, "CORE_FLAT", 1);
+    }
     if (shader == SHADER_CORE_POINTS || shader == SHADER_GATHER_POINTS) add(defines, "POINTS", 1);
     if (shader == SHADER_GATHER_QUADS || shader == SHADER_GATHER_POINTS) {
         bool tested = f & (FEATURE_CORE | FEATURE_HOST);
