@@ -82,7 +82,8 @@ static void every_pixel_follows_the_formulas(void **state)
     size_t hits = 0, dark = 0;
     for (size_t i = 0; i < (size_t)WIDE * HIGH; i++) {
         if (!isfinite(image->t[i])) continue;
-        double x = ((double)(i % WIDE) + 0.5 - 0.5 * WIDE), y = (0.5 * HIGH - (double)(i / WIDE) - 0.5);
+        size_t row = i / WIDE, column = i % WIDE;
+        double x = (double)column + 0.5 - 0.5 * WIDE, y = 0.5 * HIGH - (double)row - 0.5;
         double unit = 2 * tan(22.5 * 3.14159265358979323846 / 180) / HIGH;
         double to_eye[3] = {-x * unit, -y * unit, 1}, half[3], length = 0, facing = 0, shine = 0,
                half_length = 0;
@@ -156,7 +157,8 @@ static mns_field *field_of(const char *text, const char *name)
 static size_t pixel_at(double x)
 {
     double unit = 2 * 4 * tan(22.5 * 3.14159265358979323846 / 180) / HIGH;
-    return (size_t)(HIGH / 2 * WIDE + WIDE / 2 + (int)floor(x / unit + 0.5));
+    size_t column = (size_t)(0.5 * WIDE + floor(x / unit + 0.5));
+    return (size_t)(HIGH / 2) * WIDE + column;
 }
 
 /* The colour where a ball is seen, without what light does to it. */
