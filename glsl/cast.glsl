@@ -19,20 +19,8 @@
 #define MIDDLES // of chords are separators too
 #endif
 #include "active_slots.glsl"
-#if SOLVER == SOLVER_EXACT && KERNEL <= DENSITY_WYVILL
-#if KERNEL == DENSITY_POLY2
-#define DEGREE 4
-#elif KERNEL == DENSITY_POLY4
-#define DEGREE 8
-#else
-#define DEGREE 6
-#endif
-#include "bernstein.glsl"
-#include "piece.glsl"
-#elif SOLVER == SOLVER_EXACT
-#define DEGREE 1
-#include "bernstein.glsl"
-#include "taylor.glsl"
+#if SOLVER == SOLVER_EXACT
+#include "exact.glsl"
 #else
 #define DEGREE 3
 #include "bernstein.glsl"

@@ -12,21 +12,7 @@
 #include "stream.glsl"
 #include "loops.glsl"
 #include "active_links.glsl"
-#if KERNEL <= DENSITY_WYVILL
-#if KERNEL == DENSITY_POLY2
-#define DEGREE 4
-#elif KERNEL == DENSITY_POLY4
-#define DEGREE 8
-#else
-#define DEGREE 6
-#endif
-#include "bernstein.glsl"
-#include "piece.glsl"
-#else
-#define DEGREE 1
-#include "bernstein.glsl"
-#include "taylor.glsl"
-#endif
+#include "exact.glsl"
 #include "surface.glsl"
 #include "planes.glsl"
 #include "redo.glsl"
