@@ -223,7 +223,11 @@ typedef struct mns_look {
     double range[2]; /* value range of the map; default: the column's minimum and maximum */
 } mns_look;
 
-typedef enum mns_method { MNS_METHOD_AUTO = 0, MNS_METHOD_LIST } mns_method;
+typedef enum mns_method {
+    MNS_METHOD_AUTO = 0,
+    MNS_METHOD_LIST,
+    MNS_METHOD_REFERENCE /* on the CPU, certified: mns_reference; its solver is always exact */
+} mns_method;
 typedef enum mns_solver { MNS_SOLVER_EXACT = 0, MNS_SOLVER_CUBIC, MNS_SOLVER_CUBIC_MONOMIAL } mns_solver;
 typedef enum mns_gather { MNS_GATHER_EARLY_Z = 0, MNS_GATHER_PAPER } mns_gather;
 
@@ -242,6 +246,11 @@ typedef struct mns_options {
     int root_steps;   /* steps of a root search before the slow path; 0: the plan's choice */
     uint32_t shuffle; /* not 0: a seed by which the gathered lists are put in a random order */
 } mns_options;
+
+/* The ray through the image point (x, y), in pixels from the top left corner of the frame, of a view that
+ * mns_view_resolve has filled: the centre of pixel (i, j) is (i + 0.5, j + 0.5). `direction` becomes a unit
+ * vector; the ray starts at the view's eye. Thread safe. */
+MNS_API void mns_view_ray(const mns_view *resolved, double x, double y, double direction[3]);
 
 /* ---- The plan
  * ----------------------------------------------------------------------------------------------- */
@@ -420,17 +429,48 @@ typedef struct mns_image {
     float *t, *t_lo; /* distance; t + t_lo is it to more than a float; +inf and 0 on a miss */
     float *normal;
     float *certain; /* 1, or 0 where undecided */
+    float *t_error; /* bound on the error of t + t_lo; NULL where the method gives none */
 } mns_image;
 
 /* Reads a frame's planes. Errors: USAGE (not drawn yet), MEMORY, GL. */
 MNS_API mns_status mns_frame_read(mns_frame *frame, mns_image **image, mns_error *error);
 MNS_API void mns_image_destroy(mns_image *image);
 /* Writes an image: .png (8-bit sRGB with alpha where any pixel is not opaque) or .exr (float32 R G B A, t,
- * t.lo, N.X, N.Y, N.Z, certain, ZIP-compressed), written beside the name and renamed. Errors: USAGE (unknown
- * ending), IO, MEMORY. */
+ * t.lo, N.X, N.Y, N.Z, certain and, where there is one, t.err, ZIP-compressed), written beside the name and
+ * renamed. Errors: USAGE (unknown ending), IO, MEMORY. */
 MNS_API mns_status mns_image_write(const mns_image *image, const char *path, mns_error *error);
 /* Reads back an .exr that mns_image_write wrote. Errors: IO, INPUT, MEMORY. */
 MNS_API mns_status mns_image_read(const char *path, mns_image **image, mns_error *error);
+
+/* ---- The truth: the certified tracer on the CPU, in doubles
+ * ---------------------------------------------------------- */
+
+typedef struct mns_reference mns_reference;
+
+/* What one ray meets. A decision is certain when no extremum of f before it (on a miss: anywhere) comes so
+ * near to L that rounding could decide; otherwise the ray is undecided, and the rest is the best guess. */
+typedef struct mns_hit {
+    bool hit;         /* f - L changes its sign at some t > 0 */
+    bool certain;     /* proven */
+    double t;         /* distance of the first change of sign; INFINITY on a miss */
+    double t_error;   /* proven bound on |t - t*|; 0 on a miss */
+    double normal[3]; /* -grad f / |grad f| there, outward; 0,0,0 on a miss */
+    size_t ball;      /* of those around the hit, the one of the largest |q| k; 0 on a miss */
+} mns_hit;
+
+/* Makes what tracing a field needs; the field must outlive it and stay as it is. Errors: USAGE, MEMORY. */
+MNS_API mns_status mns_reference_create(const mns_field *field, mns_reference **reference, mns_error *error);
+MNS_API void mns_reference_destroy(mns_reference *reference);
+/* Finds the first hit of the ray from `origin` along `direction` (any length but zero; t is Euclidean
+ * distance). Several threads may trace through one reference at a time. Errors: USAGE, MEMORY. */
+MNS_API mns_status mns_reference_trace(const mns_reference *reference, const double origin[3],
+                                       const double direction[3], mns_hit *hit, mns_error *error);
+/* f at a point, in doubles; its gradient and the ball of the largest |q| k there where asked for (NULL: not).
+ * The ball is SIZE_MAX where none is near. Thread safe. */
+MNS_API double mns_reference_value(const mns_reference *reference, const double point[3], double gradient[3],
+                                   size_t *ball);
+/* The effective radius of ball `index` < count. Thread safe. */
+MNS_API double mns_field_radius(const mns_field *field, size_t index);
 
 /* ---- Scene files
  * --------------------------------------------------------------------------------------------- */

@@ -213,3 +213,8 @@ void mns_field_destroy(mns_field *field)
     particles_free(&field->p);
     free(field);
 }
+
+double mns_field_radius(const mns_field *field, size_t index)
+{
+    return field->p.radius ? field->p.radius[index] : field->radius_max;
+}

@@ -37,6 +37,7 @@ void mns_image_destroy(mns_image *image)
     free(image->t_lo);
     free(image->normal);
     free(image->certain);
+    free(image->t_error);
     free(image);
 }
 

@@ -172,3 +172,10 @@ mns_status mns_view_resolve(const mns_view *view, const mns_field *field, mns_vi
     *resolved = v;
     return MNS_OK;
 }
+
+void mns_view_ray(const mns_view *resolved, double x, double y, double direction[3])
+{
+    view_frame frame;
+    view_basis(resolved, &frame);
+    vec3_store(direction, view_direction(&frame, x, y));
+}
