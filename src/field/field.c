@@ -216,5 +216,5 @@ void mns_field_destroy(mns_field *field)
 
 double mns_field_radius(const mns_field *field, size_t index)
 {
-    return field->p.radius ? field->p.radius[index] : field->radius_max;
+    return field_radius(field, index);
 }
