@@ -1,0 +1,54 @@
+/* The truth of one view of one field: every pixel's first hit by the reference, in doubles, kept from run to
+ * run in the user's cache. */
+#ifndef MNS_COMPARE_TRUTH_H
+#define MNS_COMPARE_TRUTH_H
+
+#include "meniscus.h"
+
+enum { TRUTH_HASH_SIZE = 33 }; /* 128 bits in hexadecimal, with its end */
+
+/* Planes, row 0 at the top, width * height values each (x 3 for normal, x 4 for rgba). What a truth does not
+ * know is NULL: radius, view and rgba may be. */
+typedef struct truth {
+    int width, height;
+    double *t;        /* distance of the first hit; INFINITY on a miss */
+    double *t_error;  /* bound on its error */
+    double *normal;   /* outward; 0,0,0 on a miss */
+    double *radius;   /* R_j of the ball with the largest |q|k at the hit; 0 on a miss */
+    uint8_t *certain; /* 1, or 0 where undecided */
+    float *rgba;      /* shaded, linear, premultiplied */
+    bool has_view;
+    mns_view view; /* resolved, where has_view */
+    size_t hits, undecided;
+    double ms;                  /* what tracing it took, when it was traced */
+    bool cached;                /* it came from the cache */
+    char hash[TRUTH_HASH_SIZE]; /* of all that it depends on; "" without */
+    char note[200];             /* why the cache could not be used; "" where it was, or was not asked for */
+} truth;
+
+/* What a truth is made of. */
+typedef struct truth_desc {
+    const mns_field *field;
+    const mns_view *view;   /* resolved by mns_view_resolve */
+    const mns_look *look;   /* NULL: defaults */
+    mns_renderer *renderer; /* draws rgba, by MNS_METHOD_REFERENCE; NULL: no rgba */
+    bool use_cache;         /* look in $XDG_CACHE_HOME/meniscus/truth (~/.cache), and leave it there */
+    void (*progress)(void *context, int done, int rows); /* NULL, or called from one thread as rows end */
+    void *context;
+} truth_desc;
+
+/* Traces, or finds, the truth. A cached file that does not fit in every byte is thrown away. Errors: USAGE,
+ * MEMORY, what the renderer gives. */
+mns_status truth_create(const truth_desc *desc, truth **result, mns_error *error);
+/* The truth that a saved image holds (its t.err respected): no radius, no view. Errors: MEMORY. */
+mns_status truth_from_image(const mns_image *image, truth **result, mns_error *error);
+void truth_destroy(truth *t);
+
+/* What a truth hangs on, as 32 hexadecimal digits: balls, kernel, level, the resolved view, its size, the
+ * look (where `look` is not NULL), and the reference's own text. */
+void truth_hash(const mns_field *field, const mns_view *view, const mns_look *look,
+                char hash[TRUTH_HASH_SIZE]);
+/* The balls, kernel and level alone: an input's name in results. */
+void truth_hash_field(const mns_field *field, char hash[TRUTH_HASH_SIZE]);
+
+#endif
