@@ -14,7 +14,7 @@ typedef mns_status compare_seen(void *context, const run_result *result, const m
  * no error. */
 mns_status compare_scene(mns_renderer *renderer, const mns_field *field, const mns_view *view,
                          const mns_look *look, const run_spec *runs, size_t run_count, int frames,
-                         const truth *truth, run_result *results, compare_seen *seen, void *context,
+                         const truth_planes *truth, run_result *results, compare_seen *seen, void *context,
                          mns_error *error);
 
 #endif

@@ -55,7 +55,7 @@ typedef struct metrics {
 
 /* Measures `image` against `truth`. `reference` and its level `iso` are for the residual; NULL: none.
  * Parallel. Errors: USAGE (the sizes differ), MEMORY. */
-mns_status metrics_measure(const truth *truth, const mns_image *image, const mns_reference *reference,
+mns_status metrics_measure(const truth_planes *truth, const mns_image *image, const mns_reference *reference,
                            double iso, metrics *result, mns_error *error);
 
 /* Sorts `count` values in place and takes their figures. */
@@ -71,7 +71,7 @@ typedef enum metrics_mask {
     METRICS_MASK_COUNT
 } metrics_mask;
 
-metrics_mask metrics_mask_of(const truth *truth, const mns_image *image, size_t pixel);
+metrics_mask metrics_mask_of(const truth_planes *truth, const mns_image *image, size_t pixel);
 /* Length of a pixel's side at distance t, seen along the middle of the view: t 2 tan(fov / 2) / height. */
 double metrics_footprint(const mns_view *view, double t);
 

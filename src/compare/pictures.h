@@ -12,10 +12,10 @@ typedef struct page_picture {
     size_t size;
 } page_picture;
 
-typedef struct pictures {
+typedef struct picture_list {
     page_picture *picture;
     size_t count, capacity;
-} pictures;
+} picture_list;
 
 /* The ends of the signed depth difference's colours, in pixel footprints (without a view: in 1e-3 t*): blue
  * where the image is nearer than the truth, red where it is farther; grey where there is nothing to compare.
@@ -26,8 +26,8 @@ extern const char *const PICTURES_MASK_COLOR[];
 
 /* Adds the three pictures of a run (of the truth itself, image NULL: its image alone, where it has colours).
  * `run` must outlive the list. Errors: MEMORY. */
-mns_status pictures_add(pictures *list, const char *run, const truth *truth, const mns_image *image,
-                        mns_error *error);
-void pictures_free(pictures *list);
+mns_status pictures_add(picture_list *list, const char *run, const truth_planes *truth,
+                        const mns_image *image, mns_error *error);
+void pictures_free(picture_list *list);
 
 #endif

@@ -30,7 +30,7 @@ typedef struct results_about {
     const char *input; /* its name */
     const mns_field *field;
     const mns_view *view; /* resolved */
-    const truth *truth;
+    const truth_planes *truth;
 } results_about;
 
 /* The whole document, "suite" null: a new reference. Errors: MEMORY. */

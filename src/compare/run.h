@@ -51,7 +51,7 @@ typedef struct run_scene {
     const mns_view *view;           /* resolved */
     const mns_look *look;           /* NULL: defaults */
     const mns_reference *reference; /* for the residual; NULL: none is measured */
-    const truth *truth;
+    const truth_planes *truth;
     int frames; /* 1: one frame, cold, with no times of phases; more: two frames first to warm up */
 } run_scene;
 

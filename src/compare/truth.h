@@ -9,7 +9,7 @@ enum { TRUTH_HASH_SIZE = 33 }; /* 128 bits in hexadecimal, with its end */
 
 /* Planes, row 0 at the top, width * height values each (x 3 for normal, x 4 for rgba). What a truth does not
  * know is NULL: radius, view and rgba may be. */
-typedef struct truth {
+typedef struct truth_planes {
     int width, height;
     double *t;        /* distance of the first hit; INFINITY on a miss */
     double *t_error;  /* bound on its error */
@@ -24,7 +24,7 @@ typedef struct truth {
     bool cached;                /* it came from the cache */
     char hash[TRUTH_HASH_SIZE]; /* of all that it depends on; "" without */
     char note[200];             /* why the cache could not be used; "" where it was, or was not asked for */
-} truth;
+} truth_planes;
 
 /* What a truth is made of. */
 typedef struct truth_desc {
@@ -39,10 +39,10 @@ typedef struct truth_desc {
 
 /* Traces, or finds, the truth. A cached file that does not fit in every byte is thrown away. Errors: USAGE,
  * MEMORY, what the renderer gives. */
-mns_status truth_create(const truth_desc *desc, truth **result, mns_error *error);
+mns_status truth_create(const truth_desc *desc, truth_planes **result, mns_error *error);
 /* The truth that a saved image holds (its t.err respected): no radius, no view. Errors: MEMORY. */
-mns_status truth_from_image(const mns_image *image, truth **result, mns_error *error);
-void truth_destroy(truth *t);
+mns_status truth_from_image(const mns_image *image, truth_planes **result, mns_error *error);
+void truth_destroy(truth_planes *planes);
 
 /* What a truth hangs on, as 32 hexadecimal digits: balls, kernel, level, the resolved view, its size, the
  * look (where `look` is not NULL), and the reference's own text. */
