@@ -87,16 +87,21 @@ static double radius_at(const truth_planes *truth, size_t i)
     return truth->radius ? truth->radius[i] : 0;
 }
 
-/* |t - t*| / max(t*, R_j) */
+/* |t - t*|, as far as the truth's own bound leaves no doubt. */
+static double distance_error(const truth_planes *truth, size_t i, double t)
+{
+    return fmax(fabs(t - truth->t[i]) - truth->t_error[i], 0);
+}
+
 static double relative_error(const truth_planes *truth, size_t i, double t)
 {
-    return fabs(t - truth->t[i]) / fmax(truth->t[i], radius_at(truth, i));
+    return distance_error(truth, i, t) / fmax(truth->t[i], radius_at(truth, i));
 }
 
 static bool is_wrong_root(const truth_planes *truth, size_t i, double t)
 {
     double allowed = METRICS_ROOT_RADII * truth->radius[i] + METRICS_ROOT_RELATIVE * truth->t[i];
-    return fabs(t - truth->t[i]) > allowed;
+    return distance_error(truth, i, t) > allowed;
 }
 
 /* Degrees between two normals; 180 where one of them is none. By the tangent: an arc cosine of nearly 1 would
@@ -125,7 +130,7 @@ static void compare_pixel(const truth_planes *truth, const mns_image *image, siz
     c->t[i] = relative_error(truth, i, t);
     if (truth->has_view) {
         double footprint = metrics_footprint(&truth->view, truth->t[i]);
-        c->footprint[i] = fabs(t - truth->t[i]) / footprint;
+        c->footprint[i] = distance_error(truth, i, t) / footprint;
     }
     c->normal[i] = normal_angle(truth->normal + 3 * i, image->normal + 3 * i);
 }

@@ -35,7 +35,8 @@ typedef struct metrics_pixel {
     double error;    /* |t - t*| / max(t*, R_j); NAN where one of them misses */
 } metrics_pixel;
 
-/* A pixel is decided where the truth is certain and the image says so of itself. */
+/* |t - t*| stands for what of it the truth's own bound (t_error) leaves. A pixel is decided where the truth
+ * is certain and the image says so of itself. */
 typedef struct metrics {
     size_t pixels;
     size_t hits;                             /* of the image */

@@ -4,7 +4,7 @@
 
 #include "compare/metrics.h"
 
-enum { RUN_NAME_SIZE = 96, RUN_SETTINGS = 8, RUN_FRAMES_LEAST = 5 };
+enum { RUN_NAME_SIZE = 96, RUN_KNOWN_SIZE = 320, RUN_SETTINGS = 8, RUN_FRAMES_LEAST = 5 };
 
 typedef struct run_setting {
     const char *key; /* a literal */
@@ -23,8 +23,8 @@ typedef struct run_spec {
  * build and, of what iterates, a range of its caps. `*runs` is for free. Errors: USAGE (an unknown method,
  * solver or key, a value out of range, a run twice), MEMORY. */
 mns_status run_parse(const char *text, run_spec **runs, size_t *count, mns_error *error);
-/* What may stand in --runs: the methods with their solvers, the keys with their values; for --help. */
-const char *run_known(void);
+/* What may stand in --runs, "list:exact, ...; keys: gather, ...": for messages and help. */
+void run_known(char text[RUN_KNOWN_SIZE]);
 
 typedef struct run_times {
     int frames;              /* that the figures are of */
