@@ -12,7 +12,8 @@ layout(location = 1) in float in_radius;
 layout(location = 2) in float in_core;
 #endif
 
-flat out vec4 sphere;  // centre relative to o, radius
+flat out vec4 sphere;  // centre from the origin in the camera's axes, z from the plane of starts; radius
+flat out float slack;  // what rounding may have moved a chord by
 #ifndef CORE_SPHERE
 flat out uint ball;
 #endif
@@ -59,9 +60,15 @@ void main()
     radius *= core.x;
 #endif
 #endif
-    sphere = vec4(in_centre, radius);
-    // Relative to the eye, in the camera's axes; z counts from the plane where rays begin.
-    vec3 c = vec3(dot(in_centre, right.xyz) - right.w, dot(in_centre, up.xyz) - up.w, dot(in_centre, forward.xyz) - forward.w);
+    // In the camera's axes, z counting from the plane where rays begin; c is relative to the eye.
+    vec3 q = vec3(dot(in_centre, right.xyz), dot(in_centre, up.xyz), dot(in_centre, forward.xyz) - forward.w);
+    vec3 c = vec3(q.x - right.w, q.y - up.w, q.z);
+    slack = 4.0e-6 * (abs(q.x) + abs(q.y) + abs(q.z) + 2.0 * level.w);
+#ifdef CORE_SPHERE
+    sphere = vec4(q, max(radius - slack, 0.0));
+#else
+    sphere = vec4(q, radius);
+#endif
     float z = c.z + depth.y;
     float cover = radius * 1.00001 + 1.0e-6 * (abs(c.x) + abs(c.y) + abs(c.z) + level.w); // rounding only ever adds pixels
     vec2 low = vec2(-1.0e4), high = vec2(1.0e4);

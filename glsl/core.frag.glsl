@@ -2,32 +2,24 @@
 #include "real.glsl"
 #include "density.glsl"
 #include "view.glsl"
+#include "sight.glsl"
 
 #ifdef CORE_FLAT
 void main()
 {
 }
 #else
-flat in vec4 sphere;
+flat in vec4 sphere; // in the camera's axes; the radius is taken a little small, so that rounding hides no surface
+flat in float slack;
 
 layout(depth_greater) out float gl_FragDepth;
 
 void main()
 {
-    Ray ray = view_ray(gl_FragCoord.xy);
-    vec3 centre = sphere.xyz - ray.start;
-    float middle = dot(centre, ray.way);
-    vec3 offset = centre - middle * ray.way;
-    // A core that rounding may have put where none is would hide the surface: take it a little small and a little far.
-    float radius = sphere.w - 2.0e-6 * (abs(middle) + view_reach);
-    float square = radius * radius - dot(offset, offset); // the slack covers what the squares round
-    if (!(square > 0.0)) discard;
-    if (middle + sqrt(square) <= 0.0) discard; // behind the eye
-    float entry = middle - sqrt(square);
-#ifdef FAR
-    entry += view_excess;
-#endif
-    float place = (entry + 4.0e-6 * (abs(middle) + view_reach)) * depth.x;
+    Sight sight = sight_of(gl_FragCoord.xy);
+    vec2 chord;
+    if (!sight_chord(sight, sphere.xyz, sphere.w, 0.0, chord) || chord.x <= 0.0) discard;
+    float place = (chord.x + sight_excess(sight) + slack) * depth.x;
     gl_FragDepth = clamp(max(place, gl_FragCoord.z), 0.0, 1.0);
 }
 #endif

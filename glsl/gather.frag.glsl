@@ -9,9 +9,10 @@ layout(early_fragment_tests) in;
 #include "view.glsl"
 #define LISTS_ACCESS
 #include "lists.glsl"
-#include "chord_ends.glsl"
+#include "sight.glsl"
 
-flat in vec4 sphere;
+flat in vec4 sphere; // in the camera's axes
+flat in float slack;  // what a float calls a miss must be one in doubles, which may read this list again
 flat in uint ball;
 
 layout(binding = 0, offset = 0) uniform atomic_uint node_count;
@@ -22,20 +23,14 @@ layout(binding = 1) uniform sampler2D core_depth;
 
 void main()
 {
-    Ray ray = view_ray(gl_FragCoord.xy);
-    vec3 centre = sphere.xyz - ray.start;
-    // A little large: what a float calls a miss must be one in doubles, which may read this list again.
-    float slack = 2.0e-6 * (abs(centre.x) + abs(centre.y) + abs(centre.z) + view_reach);
+    Sight sight = sight_of(gl_FragCoord.xy);
     vec2 chord;
-    if (!chord_ends(centre, sphere.w, ray.way, slack, chord)) discard;
+    if (!sight_chord(sight, sphere.xyz, sphere.w, slack, chord)) discard;
 #ifdef EYE_IN_BALL
     if (chord.y + slack < 0.0) discard;
 #endif
 #ifdef GATHER_PAPER
-    float entry = chord.x;
-#ifdef FAR
-    entry += view_excess;
-#endif
+    float entry = chord.x + sight_excess(sight);
     if (entry * depth.x > texelFetch(core_depth, ivec2(gl_FragCoord.xy), 0).x) discard;
 #endif
     uint node = atomicCounterIncrement(node_count) + 1u;

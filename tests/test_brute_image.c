@@ -38,7 +38,12 @@ static planes *draw(const brute *oracle)
 {
     planes *p = calloc(1, sizeof *p);
     assert_non_null(p);
-    p->image = (mns_image){WIDE, HIGH, NULL, p->t, p->t_lo, p->normal, p->certain};
+    p->image = (mns_image){.width = WIDE,
+                           .height = HIGH,
+                           .t = p->t,
+                           .t_lo = p->t_lo,
+                           .normal = p->normal,
+                           .certain = p->certain};
     brute_limits limits = {.tau = 0x1p-40, .reference = {0, 1, 4}};
     for (int i = 0; i < PIXELS; i++) {
         brute_ray ray = brute_pixel_ray(&view, i % WIDE, i / WIDE);

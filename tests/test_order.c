@@ -65,7 +65,7 @@ static void expect_sorted(size_t count, uint32_t mask)
 static void radix_sorts_as_a_stable_comparison_sort(void **state)
 {
     (void)state;
-    static const size_t sizes[] = {0, 1, 2, 3, 255, 2048, 8191, 8192, 8193, 20011};
+    static const size_t sizes[] = {0, 1, 2, 3, 255, 2048, 8191, ORDER_ALONE, ORDER_ALONE + 1, 50011};
     static const uint32_t masks[] = {0xffffffffu, 0, 0x80000000u, 0x00400801u, 0xffc00000u, 0x7ffu};
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++)
         for (size_t m = 0; m < sizeof masks / sizeof *masks; m++) expect_sorted(sizes[s], masks[m]);
@@ -188,7 +188,7 @@ static void the_nearest_come_first(void **state)
 static void equal_distances_keep_the_fields_order(void **state)
 {
     (void)state;
-    enum { COUNT = 9000 };
+    enum { COUNT = 3 * 15000 };
     double *position = calloc(3 * COUNT, sizeof *position);
     assert_non_null(position);
     for (size_t i = 0; i < COUNT; i++) position[3 * i] = (double)(i % 3); /* three heaps */
@@ -209,12 +209,12 @@ static void equal_distances_keep_the_fields_order(void **state)
 static void any_number_of_threads_gives_the_same(void **state)
 {
     (void)state;
-    scene s = scene_of("scattered:20000", &views[0]);
+    scene s = scene_of("scattered:60000", &views[0]);
     mns_field *field = scene_field(&s);
     mns_plan *plan = scene_plan(&s, field);
     omp_set_num_threads(1);
     list_order one = order_of(field, plan);
-    assert_true(one.count > 8192);
+    assert_true(one.count > ORDER_ALONE);
     for (int threads = 2; threads <= 4; threads++) {
         omp_set_num_threads(threads);
         list_order many = order_of(field, plan);

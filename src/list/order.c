@@ -64,7 +64,7 @@ static size_t cull_all(list_order *order, const mns_field *field, const cull *c,
     uint32_t large = 0; /* farthest key of a ball that is no point, plus one */
     const double *x = field->p.axis[0], *y = field->p.axis[1], *z = field->p.axis[2];
     int threads = omp_get_max_threads() > 64 ? 64 : omp_get_max_threads();
-#pragma omp parallel num_threads(threads) reduction(max : large) if (total > 4096)
+#pragma omp parallel num_threads(threads) reduction(max : large) if (total > ORDER_ALONE)
     {
         size_t self = (size_t)omp_get_thread_num(), all = (size_t)omp_get_num_threads();
         size_t first = total * self / all, past = total * (self + 1) / all, n = first;

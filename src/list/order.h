@@ -18,14 +18,17 @@ typedef struct list_order {
     uint32_t *digits; /* counts of the sort */
     size_t capacity;
     size_t count; /* balls in view */
-    size_t
-        quads; /* of them in order, up to the last that is too large for a point: all drawn as rectangles */
+    size_t quads; /* of them in order, up to the last too large for a point: all drawn as rectangles */
 } list_order;
 
 /* Culls what is outside the view, sorts the rest ascending by |p - e| - R, ties by index. Parallel, the same
  * result for any number of threads. Errors: MEMORY. */
 mns_status list_order_make(list_order *order, const mns_field *field, const mns_plan *plan, mns_error *error);
 void list_order_free(list_order *order);
+
+/* Fewer balls are sorted and packed by one thread: OpenMP's threads go on spinning for milliseconds after
+ * their work, on the processors that a software renderer then wants (docs/decisions.md). */
+enum { ORDER_ALONE = 32768 };
 
 enum { RADIX_BITS = 11, RADIX_DIGITS = 1 << RADIX_BITS, RADIX_THREADS = 32 };
 

@@ -22,7 +22,7 @@ void list_pack_high(const list_order *order, const mns_field *field, const mns_p
 {
     size_t stride = plan->ball_floats;
     bool radii = plan->features & FEATURE_RADII, strengths = plan->features & FEATURE_STRENGTHS;
-#pragma omp parallel for if (order->count > 4096)
+#pragma omp parallel for if (order->count > ORDER_ALONE)
     for (size_t place = 0; place < order->count; place++) {
         const list_ball *ball = ball_at(order, place);
         float *to = out + place * stride;
@@ -39,7 +39,7 @@ void list_pack_low(const list_order *order, const mns_field *field, const mns_pl
 {
     size_t stride = plan->ball_floats;
     bool radii = plan->features & FEATURE_RADII, strengths = plan->features & FEATURE_STRENGTHS;
-#pragma omp parallel for if (order->count > 4096)
+#pragma omp parallel for if (order->count > ORDER_ALONE)
     for (size_t place = 0; place < order->count; place++) {
         const list_ball *ball = ball_at(order, place);
         float *to = out + place * stride;
@@ -60,7 +60,7 @@ void list_pack_low(const list_order *order, const mns_field *field, const mns_pl
 
 void list_pack_cores(const list_order *order, const mns_field *field, float *out)
 {
-#pragma omp parallel for if (order->count > 4096)
+#pragma omp parallel for if (order->count > ORDER_ALONE)
     for (size_t place = 0; place < order->count; place++) {
         uint32_t index = ball_at(order, place)->index;
         double q = field_strength(field, index);
@@ -74,7 +74,7 @@ void list_pack_colors(const list_order *order, const mns_field *field, const mns
     const particles_column *column = &field->p.column[plan->color_column];
     bool elements = strcmp(column->name, "element") == 0;
     double low = plan->color_range[0], span = plan->color_range[1] - low;
-#pragma omp parallel for if (order->count > 4096)
+#pragma omp parallel for if (order->count > ORDER_ALONE)
     for (size_t place = 0; place < order->count; place++) {
         double value = column->value[ball_at(order, place)->index];
         if (!(plan->features & FEATURE_LABELS))

@@ -34,7 +34,7 @@ void list_radix_sort(uint64_t *key, uint64_t *scratch, uint32_t *digits, size_t 
 {
     int threads = omp_get_max_threads();
     if (threads > RADIX_THREADS) threads = RADIX_THREADS;
-    if (count < 8192) threads = 1;
+    if (count <= ORDER_ALONE) threads = 1;
     radix_pass(key, scratch, count, 32, digits, threads);
     radix_pass(scratch, key, count, 32 + RADIX_BITS, digits, threads);
     radix_pass(key, scratch, count, 32 + 2 * RADIX_BITS, digits, threads);
