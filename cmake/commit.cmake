@@ -1,7 +1,7 @@
 # Writes OUTPUT, a header with the commit of the source tree, anew only where it changed: cmake -DSOURCE=... -DOUTPUT=...
 # -P. "unknown" outside a git checkout; "+" behind it where files differ from the commit.
-set(commit unknown)
 cmake_minimum_required(VERSION 3.25)
+set(commit unknown)
 find_program(GIT git)
 if(GIT)
   execute_process(COMMAND ${GIT} -C ${SOURCE} rev-parse --short=12 HEAD OUTPUT_VARIABLE found RESULT_VARIABLE failed

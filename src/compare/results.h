@@ -39,7 +39,8 @@ mns_status results_document(const results_about *about, const run_result *runs, 
 /* One element of "runs", for suites too: a new reference, NULL where memory ends. */
 json_t *results_run(const run_result *run);
 
-/* Writes a row a run of the document's "runs" under a header; `path` is new. Errors: IO, MEMORY. */
+/* Write new files. The CSV has a header and a row for each of "runs", and for each of the "runs" of each of
+ * the suite's cases, whose name stands in its first column, "case" (empty outside a suite). Errors: IO. */
 mns_status results_write_csv(const json_t *document, const char *path, mns_error *error);
 mns_status results_write_json(const json_t *document, const char *path, mns_error *error);
 
