@@ -1,0 +1,182 @@
+#include "reference/reference.h"
+
+#include "base/memory.h"
+#include "base/status.h"
+#include "reference/bound.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Squares and their errors stay within double's range up to here. */
+#define FARTHEST 1e60
+
+mns_status mns_reference_create(const mns_field *field, mns_reference **reference, mns_error *error)
+{
+    if (!field || !reference)
+        return status_fail(error, MNS_ERROR_USAGE, "reference: no field, or nowhere to put it");
+    mns_reference *made = calloc(1, sizeof *made);
+    if (!made) return status_no_memory(error, "making a reference");
+    made->field = field;
+    if (!reference_tree_build(&made->tree, field)) {
+        mns_reference_destroy(made);
+        return status_no_memory(error, "making a reference");
+    }
+    *reference = made;
+    return MNS_OK;
+}
+
+void mns_reference_destroy(mns_reference *reference)
+{
+    if (!reference) return;
+    reference_tree_free(&reference->tree);
+    free(reference);
+}
+
+void reference_scratch_free(reference_scratch *scratch)
+{
+    free(scratch->ball.item);
+    free(scratch->active.item);
+    free(scratch->chord);
+    memset(scratch, 0, sizeof *scratch);
+}
+
+/* ---- A ray
+ * ----------------------------------------------------------------------------------------------------- */
+
+static bool collect(const mns_reference *reference, reference_scratch *scratch, const reference_ray *ray)
+{
+    double origin[3], direction[3], pad[3];
+    for (int a = 0; a < 3; a++) {
+        const double *lo = reference->field->effective_lo, *hi = reference->field->effective_hi;
+        origin[a] = ray->origin[a].hi;
+        direction[a] = ray->direction[a].hi;
+        /* The boxes, the ray's origin and the way to them are each good to a few roundings of these; and a
+         * ray that starts at `base` has left nothing of the field behind it. */
+        pad[a] = 0x1p-48 * (fabs(origin[a]) + fmax(fabs(lo[a]), fabs(hi[a])) + (hi[a] - lo[a]));
+    }
+    if (!reference_tree_collect(&reference->tree, origin, direction, pad, &scratch->ball)) return false;
+    scratch->chord_count = 0;
+    if (scratch->ball.count > scratch->chord_capacity) {
+        size_t capacity = scratch->ball.capacity;
+        reference_chord *chord = memory_resize(scratch->chord, capacity, sizeof *chord);
+        if (!chord) return false;
+        scratch->chord = chord;
+        scratch->chord_capacity = capacity;
+    }
+    for (size_t i = 0; i < scratch->ball.count; i++)
+        if (reference_chord_make(&scratch->chord[scratch->chord_count], ray, reference->field,
+                                 scratch->ball.item[i]))
+            scratch->chord_count++;
+    return true;
+}
+
+/* Normal and ball of a hit at s. */
+static void describe(const reference_scratch *scratch, const mns_field *field, const reference_ray *ray,
+                     double s, mns_hit *hit)
+{
+    double gradient[3] = {0, 0, 0}, strongest = -1;
+    for (size_t i = 0; i < scratch->chord_count; i++) {
+        const reference_chord *c = &scratch->chord[i];
+        double y = reference_chord_at(c, s), w = fmin(c->peak - y * y, 1);
+        if (w < 0) continue;
+        double share = fabs(c->strength) * bound_value(field->kernel, w);
+        if (share > strongest || (share == strongest && c->ball < hit->ball)) {
+            strongest = share;
+            hit->ball = c->ball;
+        }
+        double slope = c->strength * density_slope_over_v((int)field->kernel, 1 - w) * c->inverse;
+        for (int a = 0; a < 3; a++)
+            gradient[a] += slope * (c->aside[a] * c->inverse + y * ray->direction[a].hi);
+    }
+    double largest = fmax(fabs(gradient[0]), fmax(fabs(gradient[1]), fabs(gradient[2])));
+    if (!(largest > 0)) return;
+    for (int a = 0; a < 3; a++) gradient[a] /= largest;
+    double length = sqrt(gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2]);
+    for (int a = 0; a < 3; a++) hit->normal[a] = -gradient[a] / length;
+}
+
+bool reference_trace(const mns_reference *reference, reference_scratch *scratch, const double origin[3],
+                     const double direction[3], mns_hit *hit, double *s)
+{
+    reference_ray ray;
+    search_result found;
+    reference_ray_start(&ray, reference->field, origin, direction);
+    if (!collect(reference, scratch, &ray)) return false;
+    if (!reference_search(scratch, reference->field, &ray, &found)) return false;
+    *hit = (mns_hit){.hit = found.found, .certain = found.certain, .t = INFINITY};
+    if (!found.found) return true;
+    real2 t = real2_sum(ray.base, found.at);
+    hit->t = t.hi;
+    hit->t_error = (fmax(found.hi - found.at, found.at - found.lo) + fabs(t.lo) + ray.blur) * (1 + 8 * ROUND);
+    describe(scratch, reference->field, &ray, found.at, hit);
+    *s = found.at;
+    return true;
+}
+
+mns_status mns_reference_trace(const mns_reference *reference, const double origin[3],
+                               const double direction[3], mns_hit *hit, mns_error *error)
+{
+    double s;
+    bool near = true, finite = true, zero = true;
+    if (!reference || !origin || !direction || !hit)
+        return status_fail(error, MNS_ERROR_USAGE, "reference: an argument is NULL");
+    for (int a = 0; a < 3; a++) {
+        near = near && fabs(origin[a]) <= FARTHEST;
+        finite = finite && isfinite(direction[a]);
+        zero = zero && direction[a] == 0;
+    }
+    if (!near)
+        return status_fail(error, MNS_ERROR_USAGE,
+                           "a ray's origin %g,%g,%g: expected three numbers within %g", origin[0], origin[1],
+                           origin[2], FARTHEST);
+    if (!finite || zero)
+        return status_fail(error, MNS_ERROR_USAGE,
+                           "a ray's direction %g,%g,%g: expected three finite numbers, not all 0",
+                           direction[0], direction[1], direction[2]);
+    reference_scratch scratch = {0};
+    bool done = reference_trace(reference, &scratch, origin, direction, hit, &s);
+    reference_scratch_free(&scratch);
+    return done ? MNS_OK : status_no_memory(error, "tracing a ray");
+}
+
+/* ---- A point
+ * ---------------------------------------------------------------------------------------------------- */
+
+typedef struct point_sum {
+    const mns_field *field;
+    const double *point;
+    real2 value;
+    double gradient[3], strongest;
+    size_t ball;
+} point_sum;
+
+static void add_ball(void *user, size_t ball)
+{
+    point_sum *sum = user;
+    const mns_field *f = sum->field;
+    double inverse = 1 / field_radius(f, ball), q = field_strength(f, ball), d[3], u = 0;
+    for (int a = 0; a < 3; a++) {
+        d[a] = (sum->point[a] - f->p.axis[a][ball]) * inverse;
+        u += d[a] * d[a];
+    }
+    if (!(u < 1)) return;
+    double k = density_value((int)f->kernel, u), share = fabs(q) * k;
+    real2 term = real2_sum(sum->value.hi, q * k);
+    sum->value = (real2){term.hi, sum->value.lo + term.lo};
+    double slope = q * density_slope_over_v((int)f->kernel, u) * inverse;
+    for (int a = 0; a < 3; a++) sum->gradient[a] += slope * d[a];
+    if (share > sum->strongest || (share == sum->strongest && ball < sum->ball)) {
+        sum->strongest = share;
+        sum->ball = ball;
+    }
+}
+
+double mns_reference_value(const mns_reference *reference, const double point[3], double gradient[3],
+                           size_t *ball)
+{
+    point_sum sum = {.field = reference->field, .point = point, .strongest = -1, .ball = SIZE_MAX};
+    reference_tree_around(&reference->tree, point, add_ball, &sum);
+    for (int a = 0; gradient && a < 3; a++) gradient[a] = sum.gradient[a];
+    if (ball) *ball = sum.ball;
+    return sum.value.hi + sum.value.lo;
+}
