@@ -23,5 +23,7 @@ double app_clock_ms(void);
 /* The commands: each takes its own arguments, argv[0] being its name, and returns the exit status. */
 int app_render(int argc, char **argv);
 int app_info(int argc, char **argv);
+int app_compare(int argc, char **argv);
+int app_verify(int argc, char **argv);
 
 #endif

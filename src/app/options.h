@@ -4,6 +4,7 @@
 #define MNS_APP_OPTIONS_H
 
 #include "app/parse.h"
+#include "compare/images.h"
 #include "meniscus.h"
 
 /* All that a command was told. Strings point into argv or into `scene`. */
@@ -20,10 +21,16 @@ typedef struct app_options {
     int repeat;  /* 0: not asked for */
     int threads; /* 0: OpenMP's own choice */
     bool explain;
-    bool gl, json;        /* info */
-    bool range_is_scenes; /* look.range comes from the scene, and holds for its color_by only */
-    bool help;            /* was asked for and printed: nothing more to do */
-    mns_scene *scene;     /* of a .json argument */
+    bool gl, json;              /* info */
+    const char *runs;           /* compare; NULL: the default ones */
+    int timed_frames;           /* compare */
+    bool no_cache;              /* compare */
+    images_tolerance tolerance; /* compare of two images */
+    unsigned tolerance_set;     /* which of it were given */
+    long rays, seed;            /* verify */
+    bool range_is_scenes;       /* look.range comes from the scene, and holds for its color_by only */
+    bool help;                  /* was asked for and printed: nothing more to do */
+    mns_scene *scene;           /* of a .json argument */
     const char **names;
 } app_options;
 
@@ -52,6 +59,8 @@ void options_free(app_options *o);
 
 /* Rows that commands share. */
 option_apply option_kernel, option_iso, option_radius, option_radius_scale, option_frame;
+option_apply option_output, option_size, option_eye, option_look_at, option_up, option_fov;
+option_apply option_method, option_solver, option_gather, option_backend, option_threads;
 
 #define OPTIONS_OF_FIELD                                                                                     \
     {NULL, 0, NULL, "Field (over what the input says):", NULL},                                              \
@@ -61,6 +70,17 @@ option_apply option_kernel, option_iso, option_radius, option_radius_scale, opti
         {"radius", 0, "R", "one effective radius for all particles", option_radius},                         \
     {                                                                                                        \
         "radius-scale", 0, "S", "multiply the radii by S, wherever they come from", option_radius_scale      \
+    }
+
+#define OPTIONS_OF_CAMERA                                                                                    \
+    {NULL, 0, NULL,                                                                                          \
+     "Camera (default: the whole field, of a sequence that of frame 0, fits the frame, seen along -z):",     \
+     NULL},                                                                                                  \
+        {"eye", 0, "X,Y,Z", "where the camera is", option_eye},                                              \
+        {"look-at", 0, "X,Y,Z", "the point in the middle of the frame", option_look_at},                     \
+        {"up", 0, "X,Y,Z", "what is up in the frame (default 0,1,0)", option_up},                            \
+    {                                                                                                        \
+        "fov", 0, "DEG", "vertical field of view in degrees (default 45)", option_fov                        \
     }
 
 #endif

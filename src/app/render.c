@@ -273,7 +273,7 @@ static mns_status render_all(render_job *job, mns_error *error)
 {
     mns_status status = start_renderer(job, error);
     if (status) return status;
-    progress_begin(&job->progress, job->total);
+    progress_begin(&job->progress, "frame", job->total);
     for (long i = 0; i < job->total && !status; i++) {
         status = render_one(job, job->first + i * job->step, error);
         progress_show(&job->progress, i + 1);

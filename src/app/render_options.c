@@ -9,7 +9,7 @@
 /* ---- Frame and camera
  * ------------------------------------------------------------------------------------------ */
 
-static mns_status option_size(app_options *o, const char *name, const char *text, mns_error *error)
+mns_status option_size(app_options *o, const char *name, const char *text, mns_error *error)
 {
     return parse_size(name, text, &o->view.width, &o->view.height, error);
 }
@@ -27,24 +27,24 @@ static mns_status parse_direction(const char *name, const char *text, double v[3
     return status;
 }
 
-static mns_status option_eye(app_options *o, const char *name, const char *text, mns_error *error)
+mns_status option_eye(app_options *o, const char *name, const char *text, mns_error *error)
 {
     o->view.set |= MNS_VIEW_EYE;
     return parse_point(name, text, o->view.eye, error);
 }
 
-static mns_status option_look_at(app_options *o, const char *name, const char *text, mns_error *error)
+mns_status option_look_at(app_options *o, const char *name, const char *text, mns_error *error)
 {
     o->view.set |= MNS_VIEW_LOOK_AT;
     return parse_point(name, text, o->view.look_at, error);
 }
 
-static mns_status option_up(app_options *o, const char *name, const char *text, mns_error *error)
+mns_status option_up(app_options *o, const char *name, const char *text, mns_error *error)
 {
     return parse_direction(name, text, o->view.up, error);
 }
 
-static mns_status option_fov(app_options *o, const char *name, const char *text, mns_error *error)
+mns_status option_fov(app_options *o, const char *name, const char *text, mns_error *error)
 {
     static const char expected[] = "degrees between 0 and 180, both excluded";
     mns_status status = parse_numbers(name, text, ',', 1, &o->view.fov, expected, error);
@@ -178,7 +178,7 @@ static const char *method_name(int i)
     return names[i];
 }
 
-static mns_status option_method(app_options *o, const char *name, const char *text, mns_error *error)
+mns_status option_method(app_options *o, const char *name, const char *text, mns_error *error)
 {
     static const char *const absent[] = {"tile", "fbvh", "bvh", "reference"};
     for (size_t i = 0; i < sizeof absent / sizeof *absent; i++)
@@ -197,7 +197,7 @@ static const char *solver_name(int i)
     return names[i];
 }
 
-static mns_status option_solver(app_options *o, const char *name, const char *text, mns_error *error)
+mns_status option_solver(app_options *o, const char *name, const char *text, mns_error *error)
 {
     int index;
     mns_status status = parse_name(name, text, solver_name, MNS_SOLVER_CUBIC_MONOMIAL + 1, &index, error);
@@ -211,7 +211,7 @@ static const char *gather_name(int i)
     return names[i];
 }
 
-static mns_status option_gather(app_options *o, const char *name, const char *text, mns_error *error)
+mns_status option_gather(app_options *o, const char *name, const char *text, mns_error *error)
 {
     int index;
     mns_status status = parse_name(name, text, gather_name, MNS_GATHER_PAPER + 1, &index, error);
@@ -225,7 +225,7 @@ static const char *backend_name(int i)
     return names[i];
 }
 
-static mns_status option_backend(app_options *o, const char *name, const char *text, mns_error *error)
+mns_status option_backend(app_options *o, const char *name, const char *text, mns_error *error)
 {
     int index;
     mns_status status = parse_name(name, text, backend_name, MNS_BACKEND_GLFW + 1, &index, error);
@@ -238,7 +238,7 @@ static mns_status option_samples(app_options *o, const char *name, const char *t
     return parse_count(name, text, 64, &o->draw.samples, error);
 }
 
-static mns_status option_threads(app_options *o, const char *name, const char *text, mns_error *error)
+mns_status option_threads(app_options *o, const char *name, const char *text, mns_error *error)
 {
     return parse_count(name, text, 1024, &o->threads, error);
 }
@@ -246,7 +246,7 @@ static mns_status option_threads(app_options *o, const char *name, const char *t
 /* ---- Output and measurement
  * ------------------------------------------------------------------------------------ */
 
-static mns_status option_output(app_options *o, const char *name, const char *text, mns_error *error)
+mns_status option_output(app_options *o, const char *name, const char *text, mns_error *error)
 {
     (void)name, (void)error;
     o->output = text;
@@ -336,12 +336,7 @@ static const option_row ROWS[] = {
      option_background},
     {"aa", 0, "N", "samples a pixel for colour, 1 to 64 (default 1)", option_samples},
     OPTIONS_OF_FIELD,
-    HEADING(
-        "Camera (default: the whole field, of a sequence that of frame 0, fits the frame, seen along -z):"),
-    {"eye", 0, "X,Y,Z", "where the camera is", option_eye},
-    {"look-at", 0, "X,Y,Z", "the point in the middle of the frame", option_look_at},
-    {"up", 0, "X,Y,Z", "what is up in the frame (default 0,1,0)", option_up},
-    {"fov", 0, "DEG", "vertical field of view in degrees (default 45)", option_fov},
+    OPTIONS_OF_CAMERA,
     HEADING("Look:"),
     {"light", 0, "head|X,Y,Z", "at the eye, or from that direction (default head)", option_light},
     {"shading", 0, "NAME", "smooth (the default) or cel", option_shading},

@@ -50,8 +50,7 @@ static bool find_strange(const char *path, char name[256])
     return strange;
 }
 
-/* What may be replaced, and what must not. */
-static mns_status check_place(const char *path, mns_error *error)
+mns_status folder_check(const char *path, mns_error *error)
 {
     struct stat about;
     if (stat(path, &about)) return errno == ENOENT ? MNS_OK : failed(path, "look there", errno, error);
@@ -70,7 +69,7 @@ mns_status folder_begin(folder_output *output, const char *path, mns_error *erro
     if (!output->path) return status_no_memory(error, "naming a folder");
     for (size_t n = strlen(output->path); n > 1 && output->path[n - 1] == '/'; n--)
         output->path[n - 1] = '\0';
-    mns_status status = check_place(output->path, error);
+    mns_status status = folder_check(output->path, error);
     if (!status && asprintf(&output->temporary, "%s.meniscus-%ld.part", output->path, (long)getpid()) < 0) {
         output->temporary = NULL;
         status = status_no_memory(error, "naming a folder");
@@ -86,7 +85,7 @@ mns_status folder_begin(folder_output *output, const char *path, mns_error *erro
 mns_status folder_commit(folder_output *output, mns_error *error)
 {
     char *aside = NULL;
-    mns_status status = check_place(output->path, error); /* much may have happened since */
+    mns_status status = folder_check(output->path, error); /* much may have happened since */
     if (!status && asprintf(&aside, "%s.old", output->temporary) < 0) {
         aside = NULL;
         status = status_no_memory(error, "naming a folder");

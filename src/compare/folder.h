@@ -9,8 +9,10 @@ typedef struct folder_output {
     char *temporary; /* its name for now, beside it */
 } folder_output;
 
-/* Makes a new folder beside `path`. What is there already must be a folder with nothing in it but the files
- * of a comparison. End with commit or discard. Errors: IO, MEMORY. */
+/* May a result be written under that name? What is there already must be a folder with nothing in it but the
+ * files of a comparison. Errors: IO. */
+mns_status folder_check(const char *path, mns_error *error);
+/* Makes a new folder beside `path`. End with commit or discard. Errors: IO, MEMORY. */
 mns_status folder_begin(folder_output *output, const char *path, mns_error *error);
 /* "folder/name", for the caller to free; NULL where memory ends. */
 char *folder_file(const folder_output *output, const char *name);
