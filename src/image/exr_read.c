@@ -1,4 +1,5 @@
 /* Reads back an EXR of ours: one part of scan lines, deflated or plain, with all of our float32 channels. */
+#include "base/memory.h"
 #include "image/exr.h"
 
 #include <errno.h>
@@ -118,7 +119,7 @@ static mns_status read_size(const image_reader *reader, int *width, int *height)
     int64_t w = (int64_t)reader->window.max.x - reader->window.min.x + 1;
     int64_t h = (int64_t)reader->window.max.y - reader->window.min.y + 1;
     bool in_range = w >= 1 && h >= 1 && w <= IMAGE_SIDE_MAX && h <= IMAGE_SIDE_MAX;
-    int64_t pixel_bytes = IMAGE_CHANNELS * (int64_t)sizeof(float);
+    int64_t pixel_bytes = (IMAGE_CHANNELS - 1) * (int64_t)sizeof(float); /* at least */
     if (!in_range || w * h > reader->stream.size * INFLATION_MAX / pixel_bytes)
         return status_fail(reader->error, MNS_ERROR_INPUT,
                            "%s: announces %lld x %lld pixels, which its %lld bytes cannot hold", reader->path,
@@ -127,30 +128,39 @@ static mns_status read_size(const image_reader *reader, int *width, int *height)
     return MNS_OK;
 }
 
-static mns_status check_channels(const image_reader *reader, const image_channel channels[IMAGE_CHANNELS])
+/* NULL where the file has no channel of that name. */
+static const exr_attr_chlist_entry_t *find_entry(const exr_attr_chlist_t *list, const char *name)
+{
+    for (int i = 0; i < list->num_channels; i++)
+        if (!strcmp(list->entries[i].name.str, name)) return &list->entries[i];
+    return NULL;
+}
+
+/* Are all our channels there, as we write them? `has_error` tells whether the one that may lack is. */
+static mns_status check_channels(const image_reader *reader, bool *has_error)
 {
     const exr_attr_chlist_t *list = NULL;
+    const mns_image names_only = {0};
+    image_channels channels;
     exr_result_t result = exr_get_channels(reader->context, 0, &list);
     if (result != EXR_ERR_SUCCESS) return damaged(reader, result);
-    for (int i = 0; i < IMAGE_CHANNELS; i++) {
-        const exr_attr_chlist_entry_t *found = NULL;
-        for (int j = 0; j < list->num_channels; j++)
-            if (!strcmp(list->entries[j].name.str, channels[i].name)) found = &list->entries[j];
+    *has_error = find_entry(list, IMAGE_ERROR_CHANNEL) != NULL;
+    image_list_channels(&names_only, *has_error, &channels);
+    for (int i = 0; i < channels.count; i++) {
+        const char *name = channels.channel[i].name;
+        const exr_attr_chlist_entry_t *found = find_entry(list, name);
         if (!found)
             return status_fail(reader->error, MNS_ERROR_INPUT,
-                               "%s: lacks the channel %s; meniscus writes it with --aov", reader->path,
-                               channels[i].name);
+                               "%s: lacks the channel %s; meniscus writes it with --aov", reader->path, name);
         if (found->pixel_type != EXR_PIXEL_FLOAT || found->x_sampling != 1 || found->y_sampling != 1)
             return status_fail(reader->error, MNS_ERROR_INPUT,
-                               "%s: channel %s: expected a float32 of every pixel", reader->path,
-                               channels[i].name);
+                               "%s: channel %s: expected a float32 of every pixel", reader->path, name);
     }
     return MNS_OK;
 }
 
 /* Points the decoder at the rows of the image from `row` on; channels that are not ours are skipped. */
-static void aim(exr_decode_pipeline_t *decoder, int width, const image_channel channels[IMAGE_CHANNELS],
-                int row)
+static void aim(exr_decode_pipeline_t *decoder, int width, const image_channels *channels, int row)
 {
     for (int i = 0; i < decoder->channel_count; i++) {
         exr_coding_channel_info_t *coded = &decoder->channels[i];
@@ -166,7 +176,7 @@ static void aim(exr_decode_pipeline_t *decoder, int width, const image_channel c
 }
 
 static mns_status read_rows(const image_reader *reader, const mns_image *image,
-                            const image_channel channels[IMAGE_CHANNELS])
+                            const image_channels *channels)
 {
     exr_decode_pipeline_t decoder = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_chunk_info_t chunk;
@@ -188,19 +198,22 @@ static mns_status read_rows(const image_reader *reader, const mns_image *image,
 
 static mns_status read_image(image_reader *reader, mns_image **image)
 {
-    image_channel channels[IMAGE_CHANNELS];
-    const mns_image names_only = {0};
+    image_channels channels;
     int width = 0, height = 0;
+    bool has_error = false;
     mns_image *made = NULL;
     mns_status status = open_file(reader);
     if (status == MNS_OK) status = read_header(reader);
     if (status == MNS_OK) status = read_size(reader, &width, &height);
-    image_list_channels(&names_only, channels);
-    if (status == MNS_OK) status = check_channels(reader, channels);
+    if (status == MNS_OK) status = check_channels(reader, &has_error);
     if (status == MNS_OK) status = image_create(width, height, &made, reader->error);
     if (status != MNS_OK) return status;
-    image_list_channels(made, channels);
-    status = read_rows(reader, made, channels);
+    if (has_error) {
+        made->t_error = memory_array((size_t)width * (size_t)height, sizeof *made->t_error);
+        if (!made->t_error) status = status_no_memory(reader->error, "reading an EXR");
+    }
+    image_list_channels(made, has_error, &channels);
+    if (status == MNS_OK) status = read_rows(reader, made, &channels);
     if (status == MNS_OK)
         *image = made;
     else

@@ -24,23 +24,22 @@ static int64_t on_write(exr_const_context_t context, void *data, const void *byt
 }
 
 static exr_result_t write_header(exr_context_t context, const mns_image *image,
-                                 const image_channel channels[IMAGE_CHANNELS])
+                                 const image_channels *channels)
 {
     int part = 0;
     exr_result_t result = exr_add_part(context, "meniscus", EXR_STORAGE_SCANLINE, &part);
     if (result == EXR_ERR_SUCCESS)
         result = exr_initialize_required_attr_simple(context, part, image->width, image->height,
                                                      EXR_COMPRESSION_ZIP);
-    for (int i = 0; i < IMAGE_CHANNELS && result == EXR_ERR_SUCCESS; i++)
-        result =
-            exr_add_channel(context, part, channels[i].name, EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LINEAR, 1, 1);
+    for (int i = 0; i < channels->count && result == EXR_ERR_SUCCESS; i++)
+        result = exr_add_channel(context, part, channels->channel[i].name, EXR_PIXEL_FLOAT,
+                                 EXR_PERCEPTUALLY_LINEAR, 1, 1);
     if (result == EXR_ERR_SUCCESS) result = exr_write_header(context);
     return result;
 }
 
 /* Points the encoder at the rows from y on. */
-static void aim(exr_encode_pipeline_t *encoder, const mns_image *image,
-                const image_channel channels[IMAGE_CHANNELS], int y)
+static void aim(exr_encode_pipeline_t *encoder, const mns_image *image, const image_channels *channels, int y)
 {
     for (int i = 0; i < encoder->channel_count; i++) {
         exr_coding_channel_info_t *coded = &encoder->channels[i];
@@ -54,8 +53,7 @@ static void aim(exr_encode_pipeline_t *encoder, const mns_image *image,
     }
 }
 
-static exr_result_t write_rows(exr_context_t context, const mns_image *image,
-                               const image_channel channels[IMAGE_CHANNELS])
+static exr_result_t write_rows(exr_context_t context, const mns_image *image, const image_channels *channels)
 {
     exr_encode_pipeline_t encoder = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_chunk_info_t chunk;
@@ -79,15 +77,15 @@ mns_status image_write_exr(const mns_image *image, FILE *file, const char *path,
 {
     image_stream stream = {.file = file};
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    image_channel channels[IMAGE_CHANNELS];
+    image_channels channels;
     exr_context_t context = NULL;
     initializer.error_handler_fn = on_error;
     initializer.user_data = &stream;
     initializer.write_fn = on_write;
-    image_list_channels(image, channels);
+    image_list_channels(image, image->t_error != NULL, &channels);
     exr_result_t result = exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &initializer);
-    if (result == EXR_ERR_SUCCESS) result = write_header(context, image, channels);
-    if (result == EXR_ERR_SUCCESS) result = write_rows(context, image, channels);
+    if (result == EXR_ERR_SUCCESS) result = write_header(context, image, &channels);
+    if (result == EXR_ERR_SUCCESS) result = write_rows(context, image, &channels);
     exr_result_t finished = context ? exr_finish(&context) : EXR_ERR_SUCCESS; /* writes the table of chunks */
     if (result == EXR_ERR_SUCCESS) result = finished;
 

@@ -4,11 +4,11 @@
 #include <stdlib.h>
 
 static const char *const feature_names[FEATURE_COUNT] = {
-    [5] = "radii",        [6] = "strengths", [7] = "core",         [8] = "core_radii",  [9] = "paper",
-    [10] = "points",      [11] = "quads",    [12] = "eye_in_ball", [13] = "eye_inside", [14] = "far",
-    [15] = "host",        [16] = "shuffle",  [17] = "colors",      [18] = "labels",     [19] = "cel",
-    [20] = "directional", [21] = "specular", [22] = "samples",     [23] = "clip_zero",  [24] = "texels",
-    [25] = "flat_cores",
+    [5] = "radii",        [6] = "strengths",  [7] = "core",         [8] = "core_radii",  [9] = "paper",
+    [10] = "points",      [11] = "quads",     [12] = "eye_in_ball", [13] = "eye_inside", [14] = "far",
+    [15] = "host",        [16] = "shuffle",   [17] = "colors",      [18] = "labels",     [19] = "cel",
+    [20] = "directional", [21] = "specular",  [22] = "samples",     [23] = "clip_zero",  [24] = "texels",
+    [25] = "flat_cores",  [26] = "reference",
 };
 
 static const char *const solver_names[] = {"exact", "cubic", "cubic-monomial"};
@@ -16,12 +16,17 @@ static const char *const solver_names[] = {"exact", "cubic", "cubic-monomial"};
 static void print_plan(FILE *out, const mns_plan *plan, const mns_field *field)
 {
     const mns_view *v = &plan->view;
-    fprintf(out, "method list (%s), solver %s, kernel %s, L %g\n", plan->method_reason,
-            solver_names[plan->options.solver], mns_kernel_name(field->kernel), field->iso);
+    bool traced = plan->features & FEATURE_REFERENCE;
+    fprintf(out, "method %s (%s), solver %s, kernel %s, L %g\n", traced ? "reference" : "list",
+            plan->method_reason, solver_names[plan->options.solver], mns_kernel_name(field->kernel),
+            field->iso);
     fprintf(out, "frame %dx%d, eye %g,%g,%g, look-at %g,%g,%g, fov %g\n", v->width, v->height, v->eye[0],
             v->eye[1], v->eye[2], v->look_at[0], v->look_at[1], v->look_at[2], v->fov);
-    fprintf(out, "balls %zu, %zu floats each; f(eye) %g; node pool %zu, at most %zu\n", field->p.count,
-            plan->ball_floats, plan->facts.eye_value, plan->pool_nodes, plan->pool_most);
+    if (traced)
+        fprintf(out, "balls %zu; f(eye) %g\n", field->p.count, plan->facts.eye_value);
+    else
+        fprintf(out, "balls %zu, %zu floats each; f(eye) %g; node pool %zu, at most %zu\n", field->p.count,
+                plan->ball_floats, plan->facts.eye_value, plan->pool_nodes, plan->pool_most);
     fprintf(out, "coordinates from %.17g,%.17g,%.17g\n", plan->origin[0], plan->origin[1], plan->origin[2]);
     fprintf(out, "features 0x%llx:", (unsigned long long)plan->features);
     for (int bit = 0; bit < FEATURE_COUNT; bit++)

@@ -22,7 +22,7 @@ static const mns_limits least_limits = {
  * (docs/decisions.md). */
 #define FLAT_CORES_FROM 20000
 
-static void leave_out(mns_plan *plan, const char *part, const char *reason)
+void plan_leave_out(mns_plan *plan, const char *part, const char *reason)
 {
     if (plan->left_out_count < PLAN_PARTS)
         plan->left_out[plan->left_out_count++] = (mns_left_out){part, reason};
@@ -30,9 +30,14 @@ static void leave_out(mns_plan *plan, const char *part, const char *reason)
 
 static mns_status check_options(const mns_options *options, mns_error *error)
 {
-    if (options->method != MNS_METHOD_AUTO && options->method != MNS_METHOD_LIST)
-        return status_fail(error, MNS_ERROR_USAGE, "options: method %d is not in this build; take list",
+    if ((unsigned)options->method > MNS_METHOD_REFERENCE)
+        return status_fail(error, MNS_ERROR_USAGE,
+                           "options: method %d is not in this build; take list or reference",
                            options->method);
+    if (options->method == MNS_METHOD_REFERENCE && options->solver != MNS_SOLVER_EXACT)
+        return status_fail(error, MNS_ERROR_USAGE,
+                           "options: solver %d of the reference; reference has one solver: exact",
+                           options->solver);
     if ((unsigned)options->solver > MNS_SOLVER_CUBIC_MONOMIAL)
         return status_fail(error, MNS_ERROR_USAGE, "options: no solver %d", options->solver);
     if ((unsigned)options->gather > MNS_GATHER_PAPER)
@@ -66,12 +71,13 @@ static void resolve_options(const mns_options *options, mns_plan *plan)
 {
     mns_options *o = &plan->options;
     *o = options ? *options : (mns_options){0};
-    o->method = MNS_METHOD_LIST;
+    if (o->method == MNS_METHOD_AUTO) o->method = MNS_METHOD_LIST;
     if (!o->samples) o->samples = 1;
     if (!o->slots) o->slots = plan->limits.is_software ? 64 : 24;
     if (!o->root_steps) o->root_steps = 48;
-    plan->method_reason =
-        options && options->method == MNS_METHOD_LIST ? "asked for" : "auto: the method of this build";
+    plan->method_reason = options && options->method != MNS_METHOD_AUTO
+                              ? "asked for"
+                              : "auto: the method that draws on the GPU";
 }
 
 static void plan_balls(mns_plan *plan, const mns_field *field)
@@ -79,11 +85,11 @@ static void plan_balls(mns_plan *plan, const mns_field *field)
     if (field->p.radius)
         plan->features |= FEATURE_RADII;
     else
-        leave_out(plan, "a radius a ball", "all are equal");
+        plan_leave_out(plan, "a radius a ball", "all are equal");
     if (field->p.strength && (field->strength_min != 1 || field->strength_max != 1))
         plan->features |= FEATURE_STRENGTHS;
     else
-        leave_out(plan, "a strength a ball", "all are 1");
+        plan_leave_out(plan, "a strength a ball", "all are 1");
     plan->ball_floats =
         3 + (plan->features & FEATURE_RADII ? 1 : 0) + (plan->features & FEATURE_STRENGTHS ? 1 : 0);
 }
@@ -95,17 +101,17 @@ static void plan_eye(mns_plan *plan, const mns_field *field)
     if (facts->eye_in_ball)
         plan->features |= FEATURE_EYE_IN_BALL;
     else
-        leave_out(plan, "rays that start inside a ball", "the eye is outside every effective sphere");
+        plan_leave_out(plan, "rays that start inside a ball", "the eye is outside every effective sphere");
     if (facts->eye_value >= field->iso)
         plan->features |= FEATURE_EYE_INSIDE;
     else
-        leave_out(plan, "the way out of the surface", "f(eye) < L");
+        plan_leave_out(plan, "the way out of the surface", "f(eye) < L");
     if (facts->eye_distance > FAR_RADII * field->radius_max) {
         plan->features |= FEATURE_FAR;
         origin = vec3_load(facts->nearest_point);
         plan->plane_depth = facts->plane_depth * (1 - 1e-9);
     } else {
-        leave_out(plan, "rays that begin at the box", "the eye is within 30 radii of the field's box");
+        plan_leave_out(plan, "rays that begin at the box", "the eye is within 30 radii of the field's box");
     }
     vec3_store(plan->origin, origin);
     plan->depth_range = fmax(facts->farthest - plan->plane_depth, 1e-300) * 1.0001;
@@ -125,13 +131,13 @@ static void plan_core(mns_plan *plan, const mns_field *field)
 {
     const plan_facts *facts = &plan->facts;
     if (!field->p.count)
-        leave_out(plan, "core depth", "there are no balls");
+        plan_leave_out(plan, "core depth", "there are no balls");
     else if (facts->strongest <= field->iso)
-        leave_out(plan, "core depth", "no ball alone reaches L");
+        plan_leave_out(plan, "core depth", "no ball alone reaches L");
     else if (facts->negative)
-        leave_out(plan, "core depth", "a negative strength could carve a core");
+        plan_leave_out(plan, "core depth", "a negative strength could carve a core");
     else if (facts->eye_value >= field->iso)
-        leave_out(plan, "core depth", "f(eye) >= L: the way out may lie behind a core");
+        plan_leave_out(plan, "core depth", "f(eye) >= L: the way out may lie behind a core");
     else
         plan->features |= FEATURE_CORE;
     if (!(plan->features & FEATURE_CORE)) return;
@@ -162,9 +168,22 @@ static void plan_billboards(mns_plan *plan, const mns_field *field)
     if (points) plan->features |= FEATURE_POINTS;
     if (!points || widest_image(plan, field) >= plan->limits.max_point_size - 1)
         plan->features |= FEATURE_QUADS;
-    if (!points) leave_out(plan, "points for small balls", "this driver's points are too small");
+    if (!points) plan_leave_out(plan, "points for small balls", "this driver's points are too small");
     if (!(plan->features & FEATURE_QUADS))
-        leave_out(plan, "rectangles for large balls", "every ball fits a point");
+        plan_leave_out(plan, "rectangles for large balls", "every ball fits a point");
+}
+
+void plan_look_left_out(mns_plan *plan)
+{
+    if (plan->options.samples > 1)
+        plan->features |= FEATURE_SAMPLES;
+    else
+        plan_leave_out(plan, "samples beside the centre", "one sample a pixel");
+    if (!(plan->features & FEATURE_COLORS)) plan_leave_out(plan, "colours of balls", "one colour for all");
+    if (!(plan->features & FEATURE_CEL)) plan_leave_out(plan, "cel bands", "smooth shading");
+    if (!(plan->features & FEATURE_DIRECTIONAL))
+        plan_leave_out(plan, "a light of its own", "the light is at the eye");
+    if (!(plan->features & FEATURE_SPECULAR)) plan_leave_out(plan, "specular", "its strength is 0");
 }
 
 static void plan_rest(mns_plan *plan, size_t balls, bool host)
@@ -174,25 +193,17 @@ static void plan_rest(mns_plan *plan, size_t balls, bool host)
         plan->features |= FEATURE_HOST;
         plan->look.background[3] = 0; /* what stands behind is the host's */
     } else
-        leave_out(plan, "a host's depth", "no host framebuffer");
+        plan_leave_out(plan, "a host's depth", "no host framebuffer");
     if (options->gather == MNS_GATHER_PAPER) plan->features |= FEATURE_PAPER;
     bool many = balls >= FLAT_CORES_FROM && options->gather != MNS_GATHER_PAPER;
     if (plan->features & FEATURE_CORE && many) plan->features |= FEATURE_FLAT_CORES;
     if (options->shuffle) plan->features |= FEATURE_SHUFFLE;
-    if (options->samples > 1)
-        plan->features |= FEATURE_SAMPLES;
-    else
-        leave_out(plan, "samples beside the centre", "one sample a pixel");
     if (options->solver != MNS_SOLVER_EXACT)
-        leave_out(plan, "certification", "the solver is a model of the field");
+        plan_leave_out(plan, "certification", "the solver is a model of the field");
     if (plan->limits.has_clip_control) plan->features |= FEATURE_CLIP_ZERO;
-    if (!(plan->features & FEATURE_COLORS)) leave_out(plan, "colours of balls", "one colour for all");
-    if (!(plan->features & FEATURE_CEL)) leave_out(plan, "cel bands", "smooth shading");
-    if (!(plan->features & FEATURE_DIRECTIONAL))
-        leave_out(plan, "a light of its own", "the light is at the eye");
-    if (!(plan->features & FEATURE_SPECULAR)) leave_out(plan, "specular", "its strength is 0");
-    leave_out(plan, "FBVH", "no secondary rays are asked for");
-    leave_out(plan, "balls outside the view", "they cannot be seen");
+    plan_look_left_out(plan);
+    plan_leave_out(plan, "FBVH", "no secondary rays are asked for");
+    plan_leave_out(plan, "balls outside the view", "they cannot be seen");
 }
 
 static void plan_passes(mns_plan *plan)
@@ -230,10 +241,10 @@ static void plan_pool(mns_plan *plan, const mns_field *field)
     if (plan->pool_most <= texels && field->p.count * plan->ball_floats * 2 <= texels)
         plan->features |= FEATURE_TEXELS;
     else
-        leave_out(plan, "reading by texels", "this driver's buffer textures are too small");
+        plan_leave_out(plan, "reading by texels", "this driver's buffer textures are too small");
 }
 
-static mns_status check_limits(const mns_plan *plan, const mns_field *field, mns_error *error)
+static mns_status check_size(const mns_plan *plan, mns_error *error)
 {
     const mns_limits *limits = &plan->limits;
     int width = plan->frame.width, height = plan->frame.height;
@@ -244,6 +255,12 @@ static mns_status check_limits(const mns_plan *plan, const mns_field *field, mns
     if (width > most_x || height > most_y)
         return status_fail(error, MNS_ERROR_UNSUPPORTED, "size %dx%d: this driver draws at most %dx%d", width,
                            height, most_x, most_y);
+    return MNS_OK;
+}
+
+static mns_status check_limits(const mns_plan *plan, const mns_field *field, mns_error *error)
+{
+    const mns_limits *limits = &plan->limits;
     const double smallest = 1e-15, largest = 1e15; /* what floats can square, and the square again */
     if (field->p.count && (field->radius_min < smallest || plan->facts.farthest > largest))
         return status_fail(error, MNS_ERROR_UNSUPPORTED,
@@ -255,6 +272,20 @@ static mns_status check_limits(const mns_plan *plan, const mns_field *field, mns
         return status_fail(error, MNS_ERROR_UNSUPPORTED,
                            "%zu balls: this driver's storage blocks hold %zu of this field", field->p.count,
                            most);
+    return MNS_OK;
+}
+
+static mns_status plan_list(mns_plan *plan, const mns_field *field, bool host, mns_error *error)
+{
+    plan_balls(plan, field);
+    plan_eye(plan, field);
+    plan_core(plan, field);
+    plan_billboards(plan, field);
+    mns_status status = check_limits(plan, field, error);
+    if (status) return status;
+    plan_rest(plan, field->p.count, host);
+    plan_passes(plan);
+    plan_pool(plan, field);
     return MNS_OK;
 }
 
@@ -273,16 +304,12 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
     resolve_options(options, plan);
     plan->features = (uint64_t)field->kernel | (uint64_t)plan->options.solver << 3;
     plan_facts_of(field, &plan->frame, &plan->facts);
-    plan_balls(plan, field);
-    plan_eye(plan, field);
-    plan_core(plan, field);
-    plan_billboards(plan, field);
     status = plan_look(look, field, plan, error);
-    if (!status) status = check_limits(plan, field, error);
+    if (!status) status = check_size(plan, error);
+    if (!status)
+        status = plan->options.method == MNS_METHOD_REFERENCE ? plan_reference(plan, field, host, error)
+                                                              : plan_list(plan, field, host, error);
     if (status) goto fail;
-    plan_rest(plan, field->p.count, host);
-    plan_passes(plan);
-    plan_pool(plan, field);
     if (!plan_explain(plan, field)) {
         status = status_no_memory(error, "while planning a frame");
         goto fail;

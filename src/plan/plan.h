@@ -31,7 +31,8 @@ enum plan_feature {
     FEATURE_CLIP_ZERO = 1 << 23,  /* clip control: depth without the 2z - 1 */
     FEATURE_TEXELS = 1 << 24,     /* balls and lists are read as texels */
     FEATURE_FLAT_CORES = 1 << 25, /* core spheres laid down as flat squares, without a fragment shader */
-    FEATURE_COUNT = 26
+    FEATURE_REFERENCE = 1 << 26,  /* traced on the CPU; nothing but colours is left to GL */
+    FEATURE_COUNT = 27
 };
 
 enum { PLAN_MOST = 16 }; /* passes; parts left out are at most PLAN_PARTS */
@@ -86,6 +87,14 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
 
 /* Fills view-independent defaults of a look and checks it against the field's columns. */
 mns_status plan_look(const mns_look *look, const mns_field *field, mns_plan *plan, mns_error *error);
+
+/* Appends to what is left out; both strings are literals. */
+void plan_leave_out(mns_plan *plan, const char *part, const char *reason);
+/* What belongs to any method: samples and looks. */
+void plan_look_left_out(mns_plan *plan);
+
+/* Features, passes and what is left out of a frame that the reference traces. Errors: UNSUPPORTED. */
+mns_status plan_reference(mns_plan *plan, const mns_field *field, bool host, mns_error *error);
 
 /* Writes plan->text. False: out of memory. */
 bool plan_explain(mns_plan *plan, const mns_field *field);

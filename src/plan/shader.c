@@ -124,6 +124,7 @@ void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[
 bool plan_needs(const mns_plan *plan, plan_shader shader)
 {
     uint64_t f = plan->features;
+    if (f & FEATURE_REFERENCE) return shader == SHADER_SHADE;
     switch (shader) {
     case SHADER_CORE_QUADS:
         return f & FEATURE_CORE && f & FEATURE_QUADS;

@@ -13,6 +13,8 @@ struct mns_reference {
  * it lies. False: out of memory. */
 bool reference_trace(const mns_reference *reference, reference_scratch *scratch, const double origin[3],
                      const double direction[3], mns_hit *hit, double *s);
+/* q k of a chord's ball at s. */
+double reference_share(const reference_chord *chord, mns_kernel kernel, double s);
 void reference_scratch_free(reference_scratch *scratch);
 
 #endif

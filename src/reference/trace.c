@@ -70,6 +70,12 @@ static bool collect(const mns_reference *reference, reference_scratch *scratch, 
     return true;
 }
 
+double reference_share(const reference_chord *chord, mns_kernel kernel, double s)
+{
+    double y = reference_chord_at(chord, s);
+    return chord->strength * bound_value(kernel, fmin(chord->peak - y * y, 1));
+}
+
 /* Normal and ball of a hit at s. */
 static void describe(const reference_scratch *scratch, const mns_field *field, const reference_ray *ray,
                      double s, mns_hit *hit)
@@ -79,7 +85,7 @@ static void describe(const reference_scratch *scratch, const mns_field *field, c
         const reference_chord *c = &scratch->chord[i];
         double y = reference_chord_at(c, s), w = fmin(c->peak - y * y, 1);
         if (w < 0) continue;
-        double share = fabs(c->strength) * bound_value(field->kernel, w);
+        double share = fabs(reference_share(c, field->kernel, s));
         if (share > strongest || (share == strongest && c->ball < hit->ball)) {
             strongest = share;
             hit->ball = c->ball;

@@ -169,6 +169,7 @@ static mns_status draw_region(draw *d, list_region region, mns_error *error)
 static mns_status draw_sample(draw *d, const double jitter[2], mns_error *error)
 {
     const mns_plan *plan = d->plan;
+    if (plan->features & FEATURE_REFERENCE) return draw_reference_sample(d, jitter, error);
     list_region whole = {0, 0, plan->frame.width, plan->frame.height};
     set_view(d, jitter);
     if (plan->features & (FEATURE_CORE | FEATURE_HOST)) {
@@ -201,7 +202,7 @@ static mns_status draw_samples(draw *d, mns_error *error)
     }
     if (status) return status;
     memset(&d->stats->fallbacks, 0, sizeof d->stats->fallbacks);
-    d->stats->tiles = d->stats->list_nodes = d->stats->pixels_undecided = 0;
+    d->stats->tiles = d->stats->list_nodes = d->stats->pixels_hit = d->stats->pixels_undecided = 0;
     d->lengths.count = 0;
     list_jitter(0, 1, jitter);
     status = draw_sample(d, jitter, error);
@@ -210,24 +211,35 @@ static mns_status draw_samples(draw *d, mns_error *error)
     return status;
 }
 
+/* The balls where the method wants them, and the samples from them. */
+static mns_status draw_balls(draw *d, mns_error *error)
+{
+    bool traced = d->plan->features & FEATURE_REFERENCE;
+    mns_status status = traced ? draw_reference_begin(d, error) : draw_balls_upload(d, error);
+    d->stats->balls_in_view = traced ? d->field->p.count : d->r->order.count;
+    if (!status) status = draw_samples(d, error);
+    draw_reference_end(d);
+    return status;
+}
+
 static mns_status draw_all(draw *d, mns_error *error)
 {
     mns_renderer *r = d->r;
-    mns_status status = list_passes_prepare(&r->passes, &r->device, d->plan, error);
+    bool traced = d->plan->features & FEATURE_REFERENCE;
+    mns_status status = MNS_OK;
+    if (!traced) status = list_passes_prepare(&r->passes, &r->device, d->plan, error);
     if (!status) status = frame_prepare(d->frame, d->plan, error);
     if (!status) status = list_passes_compile(&r->device, &r->programs, d->plan, d->program, error);
     if (status) return status;
     if (d->target) host_depth_take(&r->passes, &r->device, d->plan, d->target);
     r->device.gl.Finish();
     d->last_mark = d->stats->ms_total = clock_ms();
-    status = draw_balls_upload(d, error);
-    d->stats->balls_in_view = r->order.count;
-    if (!status) status = draw_samples(d, error);
+    status = draw_balls(d, error);
     d->stats->ms_total -= d->spent;
     if (!status && d->target)
         host_draw(&r->passes, &r->device, d->plan, d->target, d->program[SHADER_HOST_DRAW], d->frame->shaded,
                   d->frame->t);
-    if (!status && d->plan->options.measure) status = draw_hits_count(d, error);
+    if (!status && d->plan->options.measure && !traced) status = draw_hits_count(d, error);
     list_lengths_finish(&d->lengths, d->stats);
     d->stats->programs = r->programs.count;
     d->stats->buffers = draw_buffers_count(r);

@@ -6,6 +6,13 @@
 #include "list/uniforms.h"
 #include "render/render.h"
 
+/* What a draw by the reference keeps from sample to sample; rows run from the bottom, as GL's. */
+typedef struct draw_tracer {
+    mns_reference *reference;
+    float *t, *normal, *color; /* 2, 4 and 4 floats a pixel; color only with COLORS */
+    float (*label)[3];         /* linear colours of the column's labels (LABELS) */
+} draw_tracer;
+
 typedef struct draw {
     mns_renderer *r;
     const mns_field *field;
@@ -15,6 +22,7 @@ typedef struct draw {
     mns_stats *stats;
     GLuint program[SHADER_COUNT];
     list_lengths lengths;
+    draw_tracer tracer;
     double wide[VIEW_VECTORS * 4];
     double last_mark,
         spent; /* clock at the last mark; milliseconds spent on figures and compilers, not on the frame */
@@ -31,6 +39,12 @@ void draw_send(draw *d, gl_buffer *buffer, const void *data, size_t size);
 mns_status draw_balls_upload(draw *d, mns_error *error);
 /* The low words of the balls and the view in doubles, when the first pixel needs them. */
 mns_status draw_low_upload(draw *d, mns_error *error);
+
+/* reference.c: makes the tracer; traces one sample of every pixel into the planes, and counts; drops the
+ * tracer, also one half made. Errors: MEMORY. */
+mns_status draw_reference_begin(draw *d, mns_error *error);
+mns_status draw_reference_sample(draw *d, const double jitter[2], mns_error *error);
+void draw_reference_end(draw *d);
 
 /* figures.c */
 void draw_stats_start(draw *d);

@@ -13,9 +13,10 @@ void draw_stats_start(draw *d)
     const mns_plan *plan = d->plan;
     mns_stats *stats = d->stats;
     *stats = (mns_stats){0};
-    stats->method = "list";
+    bool traced = plan->features & FEATURE_REFERENCE;
+    stats->method = traced ? "reference" : "list";
     stats->solver = solvers[plan->options.solver];
-    stats->gather = plan->options.gather == MNS_GATHER_PAPER ? "paper" : "early-z";
+    stats->gather = traced ? "none" : plan->options.gather == MNS_GATHER_PAPER ? "paper" : "early-z";
     stats->width = plan->frame.width;
     stats->height = plan->frame.height;
     stats->timed = plan->options.measure;

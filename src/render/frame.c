@@ -4,6 +4,8 @@
 #include "gl/state.h"
 #include "render/render.h"
 
+#include <string.h>
+
 mns_status mns_frame_create(mns_renderer *renderer, mns_frame **frame, mns_error *error)
 {
     if (!renderer || !frame) return status_fail(error, MNS_ERROR_USAGE, "frame: the renderer is NULL");
@@ -29,6 +31,7 @@ void mns_frame_destroy(mns_frame *f)
     if (!f) return;
     drop_textures(f);
     mns_plan_destroy(f->plan);
+    free(f->t_error);
     free(f);
 }
 
@@ -63,6 +66,12 @@ mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
     const GladGLContext *gl = &device->gl;
     bool color = plan->features & FEATURE_COLORS;
     int width = plan->frame.width, height = plan->frame.height;
+    free(f->t_error);
+    f->t_error = NULL;
+    if (plan->features & FEATURE_REFERENCE) {
+        f->t_error = memory_array((size_t)width * (size_t)height, sizeof *f->t_error);
+        if (!f->t_error) return status_no_memory(error, "while making a frame");
+    }
     if (f->t && f->width == width && f->height == height && f->has_color == color) return MNS_OK;
     drop_textures(f);
     f->t = plane_make(gl, GL_RG32F, width, height);
@@ -103,7 +112,7 @@ const mns_plan *mns_frame_plan(const mns_frame *frame)
     return frame->plan;
 }
 
-static mns_image *image_make(int width, int height)
+static mns_image *image_make(int width, int height, bool with_error)
 {
     size_t pixels = (size_t)width * (size_t)height;
     mns_image *image = calloc(1, sizeof *image);
@@ -115,7 +124,10 @@ static mns_image *image_make(int width, int height)
     image->t_lo = memory_array(pixels, sizeof(float));
     image->normal = memory_array(pixels, 3 * sizeof(float));
     image->certain = memory_array(pixels, sizeof(float));
+    if (with_error) image->t_error = memory_array(pixels, sizeof(float));
+    if (with_error && !image->t_error) goto fail;
     if (image->rgba && image->t && image->t_lo && image->normal && image->certain) return image;
+fail:
     mns_image_destroy(image);
     return NULL;
 }
@@ -132,6 +144,7 @@ static void unpack(const mns_frame *f, mns_image *image, float *row_store)
 {
     const GladGLContext *gl = &f->renderer->device.gl;
     size_t width = (size_t)f->width, height = (size_t)f->height;
+    if (f->t_error) memcpy(image->t_error, f->t_error, width * height * sizeof *f->t_error);
     fetch(gl, f->shaded, GL_RGBA, row_store);
     for (size_t y = 0; y < height; y++)
         for (size_t i = 0; i < width * 4; i++)
@@ -158,7 +171,7 @@ mns_status mns_frame_read(mns_frame *f, mns_image **result, mns_error *error)
         return status_fail(error, MNS_ERROR_USAGE, "frame: nothing has been drawn into it yet");
     double begin = clock_ms();
     float *store = memory_array((size_t)f->width * (size_t)f->height, 4 * sizeof(float));
-    mns_image *image = image_make(f->width, f->height);
+    mns_image *image = image_make(f->width, f->height, f->t_error != NULL);
     gl_state state;
     if (!store || !image) {
         free(store);

@@ -34,6 +34,8 @@ struct mns_frame {
     GLuint planes_target, shaded_target;
     int width, height;
     bool has_color;
+    float *t_error; /* bound on the error of each distance, row 0 at the top; NULL where the method gives none
+                     */
 };
 
 /* Makes the frame's textures for a plan. Errors: MEMORY, GL. */

@@ -10,7 +10,7 @@ typedef struct shade_block {
     float map[PALETTE_ANCHORS][4];
 } shade_block;
 
-static float linear(double srgb)
+float shade_linear(double srgb)
 {
     return (float)(srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4));
 }
@@ -29,8 +29,8 @@ static void fill(shade_block *block, const mns_plan *plan, const double jitter[2
     const view_frame *f = &plan->frame;
     memset(block, 0, sizeof *block);
     for (int i = 0; i < 3; i++) {
-        block->surface_color[i] = linear(look->color[i]);
-        block->background[i] = linear(look->background[i]);
+        block->surface_color[i] = shade_linear(look->color[i]);
+        block->background[i] = shade_linear(look->background[i]);
     }
     block->background[3] = (float)look->background[3];
     put(block->light, vec3_unit(vec3_load(look->light_direction)), 1.0 / plan->options.samples);

@@ -5,6 +5,9 @@
 #include "gl/buffer.h"
 #include "plan/plan.h"
 
+/* An sRGB number in linear light. */
+float shade_linear(double srgb);
+
 /* One sample's planes (textures t, normal, color or 0) into `target`; the first sample replaces what is
  * there, the others add. */
 mns_status shade_pass(gl_device *device, gl_buffer *uniforms, GLuint vertex_array, const mns_plan *plan,

@@ -1,0 +1,29 @@
+/* The plan of a frame that the reference traces: GL only turns its planes into colours. */
+#include "base/status.h"
+#include "plan/plan.h"
+
+#include <float.h>
+
+static const char traced[] = "the reference is traced on the CPU";
+
+mns_status plan_reference(mns_plan *plan, const mns_field *field, bool host, mns_error *error)
+{
+    static const char *const parts[] = {
+        "sort", "upload", "core depth", "gather", "cast", "resolve", "rays that begin at the box"};
+    if (host)
+        return status_fail(error, MNS_ERROR_UNSUPPORTED,
+                           "the reference draws on no host's framebuffer; take the method list");
+    if (field->p.count && !(plan->facts.farthest <= FLT_MAX))
+        return status_fail(error, MNS_ERROR_UNSUPPORTED,
+                           "distances to %g: the planes' floats hold at most %g; rescale the input",
+                           plan->facts.farthest, (double)FLT_MAX);
+    plan->features |= FEATURE_REFERENCE;
+    vec3_store(plan->origin, plan->frame.eye);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) plan_leave_out(plan, parts[i], traced);
+    plan_leave_out(plan, "a host's depth", "no host framebuffer");
+    plan_look_left_out(plan);
+    plan_leave_out(plan, "FBVH", "no secondary rays are asked for");
+    plan->pass[plan->pass_count++] = "trace";
+    plan->pass[plan->pass_count++] = "shade";
+    return MNS_OK;
+}

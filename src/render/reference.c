@@ -1,0 +1,187 @@
+/* The planes of a frame traced on the CPU, row by row on all cores, and handed to GL for their shading. */
+#include "reference/reference.h"
+
+#include "base/memory.h"
+#include "base/status.h"
+#include "render/draw.h"
+#include "shade/palette.h"
+#include "shade/shade.h"
+
+#include <string.h>
+
+/* ---- Colours
+ * ------------------------------------------------------------------------------------------------ */
+
+static mns_status make_labels(draw *d, mns_error *error)
+{
+    const particles_column *column = &d->field->p.column[d->plan->color_column];
+    bool elements = strcmp(column->name, "element") == 0;
+    float(*label)[3] = d->tracer.label = memory_array(column->label_count, sizeof *label);
+    if (!label) return status_no_memory(error, "while colouring a frame");
+    for (size_t i = 0; i < column->label_count; i++) {
+        uint32_t rgba = palette_label(column->label[i], i, elements);
+        for (int c = 0; c < 3; c++) label[i][c] = shade_linear((rgba >> (8 * c) & 255) / 255.0);
+    }
+    return MNS_OK;
+}
+
+/* As glsl/surface.glsl blends: the mean over the balls around, by their densities where those are positive.
+ */
+static void blend(const draw *d, const reference_scratch *scratch, double s, float color[4])
+{
+    const mns_plan *plan = d->plan;
+    const particles_column *column = &d->field->p.column[plan->color_column];
+    double sum[3] = {0, 0, 0}, weight = 0, low = plan->color_range[0], span = plan->color_range[1] - low;
+    for (size_t i = 0; i < scratch->chord_count; i++) {
+        double part = reference_share(&scratch->chord[i], d->field->kernel, s);
+        if (!(part > 0)) continue;
+        double value = column->value[scratch->chord[i].ball];
+        weight += part;
+        if (!(plan->features & FEATURE_LABELS)) {
+            sum[0] += part * (span != 0 ? (value - low) / span : 0.5);
+            continue;
+        }
+        for (int c = 0; c < 3; c++) sum[c] += part * (double)d->tracer.label[(size_t)value][c];
+    }
+    for (int c = 0; c < 3; c++) color[c] = weight > 0 ? (float)(sum[c] / weight) : 0;
+    color[3] = weight > 0 ? 1 : 0;
+}
+
+/* ---- Pixels
+ * ------------------------------------------------------------------------------------------------- */
+
+typedef struct row_counts {
+    uint64_t hits, undecided;
+} row_counts;
+
+/* The least float that is no smaller. */
+static float rounded_up(double value)
+{
+    volatile float f = (float)value;
+    return (double)f >= value ? f : nextafterf(f, INFINITY);
+}
+
+static void put_pixel(draw *d, size_t at, size_t from_top, const mns_hit *hit)
+{
+    draw_tracer *tracer = &d->tracer;
+    float *t = tracer->t + 2 * at, *normal = tracer->normal + 4 * at;
+    volatile float high = (float)hit->t, low = hit->hit ? (float)(hit->t - (double)high) : 0;
+    t[0] = high, t[1] = low;
+    for (int a = 0; a < 3; a++) normal[a] = (float)hit->normal[a];
+    normal[3] = hit->certain ? 1 : 0;
+    d->frame->t_error[from_top] =
+        hit->hit ? rounded_up(hit->t_error + fabs(hit->t - ((double)high + (double)low))) : 0;
+}
+
+/* Row y from the bottom. False: out of memory. */
+static bool trace_row(draw *d, reference_scratch *scratch, int y, const double jitter[2], row_counts *counts)
+{
+    const view_frame *frame = &d->plan->frame;
+    bool colors = d->plan->features & FEATURE_COLORS;
+    size_t width = (size_t)frame->width, from_top = (size_t)(frame->height - 1 - y);
+    double eye[3], way[3], s = 0;
+    vec3_store(eye, frame->eye);
+    for (size_t x = 0; x < width; x++) {
+        size_t at = (size_t)y * width + x;
+        mns_hit hit;
+        vec3_store(way,
+                   view_direction(frame, (double)x + 0.5 + jitter[0], (double)from_top + 0.5 - jitter[1]));
+        if (!reference_trace(d->tracer.reference, scratch, eye, way, &hit, &s)) return false;
+        counts->hits += hit.hit;
+        counts->undecided += !hit.certain;
+        put_pixel(d, at, from_top * width + x, &hit);
+        if (!colors) continue;
+        float *color = d->tracer.color + 4 * at;
+        memset(color, 0, 4 * sizeof *color);
+        if (hit.hit) blend(d, scratch, s, color);
+    }
+    return true;
+}
+
+/* ---- Frames
+ * ------------------------------------------------------------------------------------------------- */
+
+mns_status draw_reference_begin(draw *d, mns_error *error)
+{
+    const GladGLContext *gl = &d->r->device.gl;
+    size_t pixels = (size_t)d->plan->frame.width * (size_t)d->plan->frame.height;
+    draw_tracer *tracer = &d->tracer;
+    mns_status status = mns_reference_create(d->field, &tracer->reference, error);
+    if (status) return status;
+    if (!d->r->passes.vertex_array) gl->GenVertexArrays(1, &d->r->passes.vertex_array);
+    tracer->t = memory_array(pixels, 2 * sizeof(float));
+    tracer->normal = memory_array(pixels, 4 * sizeof(float));
+    if (!tracer->t || !tracer->normal) return status_no_memory(error, "while tracing a frame");
+    if (d->plan->features & FEATURE_COLORS) {
+        tracer->color = memory_array(pixels, 4 * sizeof(float));
+        if (!tracer->color) return status_no_memory(error, "while tracing a frame");
+        if (d->plan->features & FEATURE_LABELS) status = make_labels(d, error);
+    }
+    draw_mark(d, MNS_PHASE_BUILD);
+    return status;
+}
+
+void draw_reference_end(draw *d)
+{
+    mns_reference_destroy(d->tracer.reference);
+    free(d->tracer.t);
+    free(d->tracer.normal);
+    free(d->tracer.color);
+    free(d->tracer.label);
+    d->tracer = (draw_tracer){0};
+}
+
+/* The planes to their textures, whatever rows the host's own textures come in. */
+static void upload(draw *d)
+{
+    enum { UNPACK = 5 };
+    static const GLenum name[UNPACK] = {GL_UNPACK_ALIGNMENT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS,
+                                        GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SWAP_BYTES};
+    static const GLint plain[UNPACK] = {4, 0, 0, 0, 0};
+    const GladGLContext *gl = &d->r->device.gl;
+    const struct {
+        GLuint texture;
+        GLenum format;
+        const float *data;
+    } planes[] = {{d->frame->t, GL_RG, d->tracer.t},
+                  {d->frame->normal, GL_RGBA, d->tracer.normal},
+                  {d->frame->color, GL_RGBA, d->tracer.color}};
+    GLint before[UNPACK];
+    for (int i = 0; i < UNPACK; i++) {
+        gl->GetIntegerv(name[i], &before[i]);
+        gl->PixelStorei(name[i], plain[i]);
+    }
+    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) {
+        if (!planes[i].data) continue;
+        gl->BindTexture(GL_TEXTURE_2D, planes[i].texture);
+        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, d->frame->width, d->frame->height, planes[i].format,
+                          GL_FLOAT, planes[i].data);
+    }
+    gl->BindTexture(GL_TEXTURE_2D, 0);
+    for (int i = 0; i < UNPACK; i++) gl->PixelStorei(name[i], before[i]);
+}
+
+mns_status draw_reference_sample(draw *d, const double jitter[2], mns_error *error)
+{
+    int height = d->plan->frame.height;
+    uint64_t hits = 0, undecided = 0;
+    bool failed = false;
+#pragma omp parallel reduction(+ : hits, undecided) reduction(|| : failed)
+    {
+        reference_scratch scratch = {0};
+        row_counts counts = {0, 0};
+#pragma omp for schedule(dynamic)
+        for (int y = 0; y < height; y++)
+            if (!failed) failed = !trace_row(d, &scratch, y, jitter, &counts);
+        hits += counts.hits;
+        undecided += counts.undecided;
+        reference_scratch_free(&scratch);
+    }
+    if (failed) return status_no_memory(error, "while tracing a frame");
+    upload(d);
+    d->stats->pixels_hit = hits;
+    d->stats->pixels_undecided = undecided;
+    d->stats->tiles = 1;
+    draw_mark(d, MNS_PHASE_TRACE);
+    return MNS_OK;
+}
