@@ -3,9 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* What counts as near, in units of truth_gap: the design's tau, and room for a bound that is taken over the
- * whole piece of a ray instead of at the extremum itself. */
-static const double NEAR = 16 * 0x1p-40;
+/* What counts as near, in units of truth_gap: the design's tau for doubles. */
+static const double NEAR = 0x1p-40;
 
 static mns_status trace(const rays_case *c, mns_hit *hit, mns_error *error)
 {

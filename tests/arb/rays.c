@@ -240,22 +240,70 @@ static void from_inside(rays_case *c, dice *d)
     memcpy(c->ray.origin, from, sizeof from);
 }
 
+/* A ball of radius 1 with a point exactly on its surface, all in short numbers; from there, or (a touch) past
+ * it. */
+static void exactly_on_surface(rays_case *c, dice *d)
+{
+    static const double on[MNS_KERNEL_COUNT][3] = {
+        /* x, y, L */
+        [MNS_KERNEL_POLY2] = {0.5, 0.5, 0.25},   [MNS_KERNEL_POLY3] = {0.5, 0.5, 0.125},
+        [MNS_KERNEL_POLY4] = {0.5, 0.5, 0.0625}, [MNS_KERNEL_WYVILL] = {0.75, 0, 147.0 / 1024},
+        [MNS_KERNEL_PERLIN] = {0.5, 0, 0.5},     [MNS_KERNEL_WENDLAND] = {0.5, 0, 0.1875}};
+    const double *at = on[c->scene.kernel];
+    c->scene.count = 0;
+    add(c, 0, 0, 0, 1, 1);
+    c->scene.iso = at[2];
+    bool from_afar = chance(d, 0.3);
+    c->ray.origin[0] = at[0], c->ray.origin[1] = at[1], c->ray.origin[2] = from_afar ? -4 : 0;
+    unit_vector(d, c->ray.direction);
+    if (from_afar || chance(d, 0.2)) c->ray.direction[0] = c->ray.direction[1] = 0, c->ray.direction[2] = 1;
+}
+
 static void from_surface(rays_case *c, dice *d)
 {
     double x[3], n[3];
-    if (c->scene.kernel == MNS_KERNEL_POLY2 && chance(d, 0.3)) { /* exactly on it: (1 - 1/2)^2 = 1/4 */
-        c->scene.count = 0;
-        add(c, 0, 0, 0, 1, 1);
-        c->scene.iso = 0.25;
-        c->ray.origin[0] = c->ray.origin[1] = 0.5, c->ray.origin[2] = 0;
-        unit_vector(d, c->ray.direction);
-        if (chance(d, 0.2)) /* and tangent */
-            c->ray.direction[0] = 1, c->ray.direction[1] = -1, c->ray.direction[2] = 0;
+    if (chance(d, 0.3)) {
+        exactly_on_surface(c, d);
         return;
     }
     if (!surface_point(c, d, x, n)) return;
     memcpy(c->ray.origin, x, sizeof x);
     unit_vector(d, c->ray.direction);
+}
+
+/* Balls about one point, and a ray that just meets or just misses it. */
+static void at_peak(rays_case *c, dice *d)
+{
+    double off[3], peak = 0;
+    c->scene.count = 0;
+    for (size_t i = 0, count = 1 + below(d, 5); i < count; i++) {
+        double w[3], away = chance(d, 0.5) ? 0 : log_within(d, 1e-12, 1e-1);
+        unit_vector(d, w);
+        add(c, away * w[0], away * w[1], away * w[2], within(d, 0.5, 1), some_strength(d, (int)below(d, 2)));
+    }
+    peak = truth_value(&c->scene, (double[]){0, 0, 0}, NULL);
+    unit_vector(d, c->ray.direction), unit_vector(d, off);
+    double past = chance(d, 0.5) ? 0 : log_within(d, 1e-12, 1e-1);
+    for (int a = 0; a < 3; a++) c->ray.origin[a] = past * off[a] - 3 * c->ray.direction[a];
+    c->scene.iso = peak * (1 + (chance(d, 0.7) ? -1 : 1) * log_within(d, 1e-15, 1e-1));
+}
+
+/* All lengths by one factor, after radii and strengths have been spread. */
+static void extreme(rays_case *c, dice *d)
+{
+    c->scene.count = 0;
+    cube(c, d, 2, 6, 0);
+    bool is_signed = chance(d, 0.5);
+    for (size_t i = 0; i < c->scene.count; i++)
+        c->strength[i] = log_within(d, 1e-6, 1e6) * (is_signed && chance(d, 0.4) ? -1 : 1);
+    shoot(c, d, log_within(d, 1e-3, 1e3));
+    if (chance(d, 0.3)) silhouette(c, d, 0.5, 30);
+    double scale = log_within(d, 1e-23, 1e26);
+    for (int a = 0; a < 3; a++) {
+        for (size_t i = 0; i < c->scene.count; i++) c->axis[a][i] *= scale;
+        c->ray.origin[a] *= scale;
+    }
+    for (size_t i = 0; i < c->scene.count; i++) c->radius[i] *= scale;
 }
 
 static void move(rays_case *c, dice *d)
@@ -274,8 +322,8 @@ static void move(rays_case *c, dice *d)
  */
 
 static const char *const names[RAYS_KINDS] = {
-    "scattered",    "dense",      "mixed",  "signed",     "silhouette", "silhouette far", "neck",
-    "chords' ends", "coincident", "inside", "on surface", "far",        "offset",
+    "scattered",  "dense",  "mixed",      "signed", "silhouette", "silhouette far", "neck",    "chords' ends",
+    "coincident", "inside", "on surface", "far",    "offset",     "peak",           "extreme",
 };
 
 const char *rays_name(rays_kind kind)
@@ -302,6 +350,8 @@ static void make_adversarial(rays_kind kind, rays_case *c, dice *d)
     if (kind == RAYS_SILHOUETTE_FAR) silhouette(c, d, 30, 1e5);
     if (kind == RAYS_INSIDE) from_inside(c, d);
     if (kind == RAYS_ON_SURFACE) from_surface(c, d);
+    if (kind == RAYS_PEAK) at_peak(c, d);
+    if (kind == RAYS_EXTREME) extreme(c, d);
     if (kind == RAYS_OFFSET) {
         if (chance(d, 0.3)) silhouette(c, d, 0.5, 30);
         move(c, d);

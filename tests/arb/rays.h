@@ -18,6 +18,8 @@ typedef enum rays_kind {
     RAYS_ON_SURFACE,     /* from the surface, to rounding or exactly */
     RAYS_FAR,            /* from 1e5 radii away */
     RAYS_OFFSET,         /* all of it 1e9 radii from the origin */
+    RAYS_PEAK,           /* L is 1e-1 to 1e-15 below or above what a heap of balls comes to at its middle */
+    RAYS_EXTREME,        /* radii over six decades, strengths over twelve, lengths times 1e-23 to 1e26 */
     RAYS_KINDS
 } rays_kind;
 
