@@ -23,7 +23,7 @@ typedef struct cache_header {
     int32_t width, height;
     char hash[TRUTH_HASH_SIZE - 1];
     double ms;
-    uint64_t checksum; /* of the planes */
+    uint64_t checksum; /* of the planes and ms */
 } cache_header;
 
 typedef struct cache_plane {
@@ -43,9 +43,10 @@ static size_t list_planes(const truth_planes *p, cache_plane list[PLANES])
     return count;
 }
 
-static uint64_t checksum_of(const cache_plane *list, size_t count)
+static uint64_t checksum_of(double ms, const cache_plane *list, size_t count)
 {
-    uint64_t sum = 0x9e3779b97f4a7c15u;
+    uint64_t sum;
+    memcpy(&sum, &ms, sizeof sum);
     for (size_t k = 0; k < count; k++) {
         const unsigned char *bytes = list[k].data;
         for (size_t i = 0; i < list[k].size; i += 8) {
@@ -105,7 +106,7 @@ static bool read_file(FILE *file, truth_planes *p)
     for (size_t k = 0; k < count; k++)
         if (fread(plane[k].data, 1, plane[k].size, file) != plane[k].size) return false;
     p->ms = header.ms;
-    return header.checksum == checksum_of(plane, count);
+    return header.checksum == checksum_of(header.ms, plane, count);
 }
 
 bool truth_cache_read(truth_planes *planes)
@@ -142,7 +143,7 @@ static bool write_file(FILE *file, const truth_planes *p)
                            .width = p->width,
                            .height = p->height,
                            .ms = p->ms,
-                           .checksum = checksum_of(plane, count)};
+                           .checksum = checksum_of(p->ms, plane, count)};
     memcpy(header.hash, p->hash, sizeof header.hash);
     bool good = fwrite(&header, sizeof header, 1, file) == 1;
     for (size_t k = 0; k < count && good; k++)
