@@ -69,6 +69,7 @@
             pointRadius: 0,
             pointHitRadius: 0,
             pointHoverRadius: 0,
+            pointStyle: 'line',
             order: 9,
         };
     }
@@ -81,11 +82,12 @@
         return `10${exponent < 0 ? '⁻' : ''}${digits}`;
     }
 
-    /* Powers of ten; 2 and 5 between them too where the axis is short. */
+    /* Powers of ten; 2 and 5 times them too where the axis is short. An axis has its ends among its ticks. */
     function tickText(value, decades) {
-        const exponent = Math.floor(Math.log10(value) + 1e-9), digit = Math.round(value / 10 ** exponent);
-        if (digit === 1) return powerOfTen(exponent);
-        return decades < 2 && (digit === 2 || digit === 5) ? page.number(value) : '';
+        const exponent = Math.floor(Math.log10(value) + 1e-9), digit = value / 10 ** exponent;
+        const is = (wanted) => Math.abs(digit - wanted) < 1e-6;
+        if (is(1)) return powerOfTen(exponent);
+        return decades < 2 && (is(2) || is(5)) ? page.number(value) : '';
     }
 
     function logAxis(title, range, more) {
@@ -151,7 +153,7 @@
         return [
             settings || null,
             `time: ${page.ms(ms.median)} (${page.number(ms.min)} to ${page.number(ms.max)}, ${page.plural(frames, 'frame')})`,
-            `${figure.group}, ${figure.text}: ${page.number(point.error)}`,
+            `${figure.title}: ${page.number(point.error)}`,
             `missed ${page.count(errors.missed)}, invented ${page.count(errors.invented)}, `
                 + `wrong root ${page.count(errors.wrong_root)}, undecided ${page.count(errors.undecided)}`,
             `distance: median ${page.number(errors.t?.median)}, p99 ${page.number(errors.t?.p99)}, largest ${page.number(errors.t?.max)}`,
@@ -176,7 +178,7 @@
         page.front = page.frontOf(points);
         const times = points.flatMap(({ run: { ms } }) => [ms.min, ms.median, ms.max]).filter((time) => time > 0);
         const canvas = page.byId('error-chart');
-        canvas.setAttribute('aria-label', `${figure.group}, ${figure.text}, against milliseconds a frame; the table of figures has the same numbers`);
+        canvas.setAttribute('aria-label', `${figure.title}, against milliseconds a frame; the table of figures has the same numbers`);
         page.errorChart = new Chart(canvas, {
             type: 'line',
             data: { datasets: [...curves(points), frontSet(page.front)] },
@@ -186,7 +188,7 @@
                 interaction: { mode: 'nearest', intersect: true },
                 scales: {
                     x: logAxis('milliseconds a frame (median)', widened(times, 1.3)),
-                    y: logAxis(`${figure.group}: ${figure.text}`, yRange(points, floor, hasZero), {
+                    y: logAxis(figure.title, yRange(points, floor, hasZero), {
                         afterBuildTicks(axis) { // nothing below the floor is a value
                             if (hasZero) axis.ticks = axis.ticks.filter((tick) => tick.value > floor * 1.5);
                         },

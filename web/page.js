@@ -58,10 +58,10 @@ const meniscus = {
     page.measured = page.runs.filter((run) => run.ms && run.errors);
 
     const SPREADS = [
-        ['t', 'Distance |t − t*| / max(t*, R)'],
-        ['footprint', 'Distance in pixel footprints'],
-        ['residual', 'Residual |f − L| / L'],
-        ['normal', 'Normal, degrees'],
+        ['t', 'Distance |t − t*| / max(t*, R)', 'Distance'],
+        ['footprint', 'Distance in pixel footprints', 'Footprints'],
+        ['residual', 'Residual |f − L| / L', 'Residual'],
+        ['normal', 'Normal, degrees', 'Normal'],
     ];
     const PARTS = [['median', 'median'], ['p99', 'p99'], ['p999', 'p99.9'], ['max', 'largest'], ['rms', 'RMS']];
     const COUNTS = [
@@ -79,16 +79,17 @@ const meniscus = {
         return errors.psnr >= PSNR_EQUAL ? 0 : 10 ** (-errors.psnr / 20);
     }
 
-    /* Every error that can be drawn: {key, group, text, isCount, of(errors) -> number or null}. */
+    /* Every error that can be drawn: {key, group, text (in the menu), title, isCount, of(errors) -> number or null}. */
     page.errorFigures = [
-        ...SPREADS.flatMap(([key, text]) => PARTS.map(([part, name]) => ({
-            key: `${key}.${part}`, group: text, text: name, isCount: false,
+        ...SPREADS.flatMap(([key, group, short]) => PARTS.map(([part, name]) => ({
+            key: `${key}.${part}`, group, text: `${short}, ${name}`, title: `${group}, ${name}`, isCount: false,
             of: (errors) => errors[key]?.[part] ?? null,
         }))),
         ...COUNTS.map(([key, text]) => ({
-            key, group: 'Pixels', text, isCount: true, of: (errors) => errors[key] ?? null,
+            key, group: 'Pixels', text, title: text, isCount: true, of: (errors) => errors[key] ?? null,
         })),
-        { key: 'psnr', group: 'Image', text: 'RMS of the image, of full scale (from PSNR)', isCount: false, of: imageError },
+        { key: 'psnr', group: 'Image', text: 'Image, RMS', title: 'RMS of the image, of full scale (from PSNR)', isCount: false,
+            of: imageError },
     ];
 
     function settle(id, ...text) {

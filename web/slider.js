@@ -157,6 +157,7 @@
     }
 
     function drawGrid(kind) {
+        const [width, height] = frame();
         for (const button of byId('kinds').children) button.setAttribute('aria-pressed', button.dataset.kind === kind);
         byId('kind-note').replaceChildren(...kindNote(kind));
         byId('grid').replaceChildren(...list.map((picture, index) => [picture, index]).filter(([picture]) => picture.kind === kind)
@@ -167,7 +168,7 @@
                         page.sideBySide(-1, index);
                         byId('compare').scrollIntoView({ block: 'start' });
                     },
-                }, element('img', { src: source(picture), alt: `${picture.run}: ${nameOf(kind)}`, loading: 'lazy' })),
+                }, element('img', { src: source(picture), alt: `${picture.run}: ${nameOf(kind)}`, width, height, decoding: 'async' })),
                 element('figcaption', null, picture.run))));
     }
 

@@ -21,9 +21,8 @@
             name: (run) => decided || key === 'wrong_root' ? some(run.errors?.[decided ?? key]) : null,
         });
         return [
-            { text: 'ms a frame', value: (run) => run.ms?.median, cell: (run) => page.number(run.ms?.median) },
-            { text: 'from, to', value: (run) => run.ms?.min, name: () => 'aside',
-                cell: (run) => run.ms ? `${page.number(run.ms.min)}, ${page.number(run.ms.max)}` : '–' },
+            { text: 'ms a frame', value: (run) => run.ms?.median, cell: (run) => [page.number(run.ms?.median),
+                run.ms ? element('span', { class: 'why' }, `${page.number(run.ms.min)} to ${page.number(run.ms.max)}`) : null] },
             count('hits', 'hits'),
             count('missed', 'missed', 'missed_decided'),
             count('invented', 'invented', 'invented_decided'),
@@ -123,7 +122,7 @@
         if (page.runs.length) {
             page.show('figures');
             const measure = page.byId('measure');
-            page.fill(measure, page.spreads);
+            page.fill(measure, page.spreads.map(([key, text]) => [key, text]));
             measure.addEventListener('change', drawFigures);
             drawFigures();
         }
