@@ -90,14 +90,15 @@
         return decades < 2 && (is(2) || is(5)) ? page.number(value) : '';
     }
 
-    function logAxis(title, range, more) {
+    function logAxis(title, range, more, zero) {
         const decades = Math.log10(range[1] / range[0]);
+        const text = (value) => value === zero ? '0' : tickText(value, decades);
         return {
             type: 'logarithmic', min: range[0], max: range[1],
             title: { display: true, text: title, color: color('soft') },
             border: { color: color('line') },
-            grid: { color: (context) => tickText(context.tick.value, decades) ? color('line') : 'transparent' },
-            ticks: { color: color('soft'), autoSkip: false, maxRotation: 0, callback: (value) => tickText(value, decades) },
+            grid: { color: (context) => text(context.tick.value) ? color('line') : 'transparent' },
+            ticks: { color: color('soft'), autoSkip: false, maxRotation: 0, callback: text },
             ...more,
         };
     }
@@ -189,10 +190,10 @@
                 scales: {
                     x: logAxis('milliseconds a frame (median)', widened(times, 1.3)),
                     y: logAxis(figure.title, yRange(points, floor, hasZero), {
-                        afterBuildTicks(axis) { // nothing below the floor is a value
-                            if (hasZero) axis.ticks = axis.ticks.filter((tick) => tick.value > floor * 1.5);
+                        afterBuildTicks(axis) { // below the floor's neighbour nothing is a value
+                            if (hasZero) axis.ticks = [{ value: floor }, ...axis.ticks.filter((tick) => tick.value > floor * 1.5)];
                         },
-                    }),
+                    }, hasZero ? floor : undefined),
                 },
                 plugins: {
                     whiskers: { floor, hasZero },

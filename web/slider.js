@@ -12,6 +12,7 @@
 
     const source = (picture) => `data:image/png;base64,${picture.png}`;
     const nameOf = (kind) => KINDS.find(([key]) => key === kind)?.[1] ?? kind;
+    const optionOf = ({ run, kind }) => kind === 'image' ? run : `${run}, ${kind}`;
     const find = (run, kind) => list.findIndex((picture) => picture.run === run && picture.kind === kind);
 
     function frame() {
@@ -121,7 +122,7 @@
     function startSlider() {
         page.show('compare');
         const groups = KINDS.map(([kind, text]) => [text, list.map((picture, index) => [picture, index])
-            .filter(([picture]) => picture.kind === kind).map(([picture, index]) => [String(index), picture.run])])
+            .filter(([picture]) => picture.kind === kind).map(([picture, index]) => [String(index), optionOf(picture)])])
             .filter(([, choices]) => choices.length);
         for (const side of ['left', 'right']) {
             page.fill(byId(side), groups);
@@ -145,7 +146,7 @@
     /* ---- the grid */
 
     function kindNote(kind) {
-        const swatch = (color, text) => element('span', { style: `border-left: 1em solid ${color}` }, text);
+        const swatch = (color, text) => element('span', null, element('i', { style: `background: ${color}` }), text);
         const { mask_colors: colors, depth_range: range } = page.pictures;
         if (kind === 'depth') {
             return [`Blue: nearer than the truth; red: farther; grey: nothing to compare. Full colour at ${page.number(range)} pixel footprint`
@@ -187,7 +188,8 @@
         state.mark = { x: pixel.x, y: pixel.y };
         const [width, height] = frame();
         state.center = [(pixel.x + 0.5) / width, (pixel.y + 0.5) / height];
-        page.sideBySide(find('truth', 'image'), Math.max(find(pixel.run, 'image'), find(pixel.run, 'mask')));
+        const image = find(pixel.run, 'image');
+        page.sideBySide(find('truth', 'image'), image < 0 ? find(pixel.run, 'mask') : image);
         setZoom(state.zoom > 1 ? state.zoom : ZOOM_OF_MARK);
         tell(null);
         byId('compare').scrollIntoView({ block: 'start' });

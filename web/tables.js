@@ -23,7 +23,6 @@
         return [
             { text: 'ms a frame', value: (run) => run.ms?.median, cell: (run) => [page.number(run.ms?.median),
                 run.ms ? element('span', { class: 'why' }, `${page.number(run.ms.min)} to ${page.number(run.ms.max)}`) : null] },
-            count('hits', 'hits'),
             count('missed', 'missed', 'missed_decided'),
             count('invented', 'invented', 'invented_decided'),
             count('wrong root', 'wrong_root'),
@@ -37,9 +36,9 @@
     }
 
     function runName(run) {
-        const settings = page.settings(run);
+        const settings = page.settings(run).split(', ').every((one) => run.name.includes(one)) ? '' : page.settings(run);
         return element('th', { scope: 'row' }, run.name,
-            run.pareto ? element('span', { class: 'front', title: 'On the Pareto front of time and the 99th percentile of the distance error' }, ' ◆') : null,
+            run.pareto ? element('span', { class: 'front', title: 'On the Pareto front of time and the 99th percentile of the distance error' }, '\u00a0◆') : null,
             run.failed ? element('span', { class: 'why' }, String(run.failed)) : settings ? element('span', { class: 'why' }, settings) : null);
     }
 
