@@ -1,4 +1,4 @@
-/* The certified tracer against ball arithmetic: a row of a table for each kind of ray and kernel.
+/* The certified tracer against ball arithmetic: a row of a table for each kind of ray, and for each kernel.
  *
  * usage: bench_reference [-n RAYS] [-s FIRST SEED]
  * Exits 1 where the tracer is wrong anywhere, or leaves open what nothing comes near.
@@ -14,6 +14,7 @@
 
 typedef struct tally {
     size_t count[JUDGE_VERDICTS], hits;
+    double seconds;
     double open;     /* largest gap of a ray left undecided */
     double worst;    /* of |t - t*| / t_error, where certain */
     double farthest; /* of |t - t*| / max(t, the largest R) */
@@ -37,6 +38,7 @@ static void tally_join(tally *sum, const tally *part)
 {
     for (int v = 0; v < JUDGE_VERDICTS; v++) sum->count[v] += part->count[v];
     sum->hits += part->hits;
+    sum->seconds += part->seconds;
     sum->open = fmax(sum->open, part->open);
     sum->worst = fmax(sum->worst, part->worst);
     sum->widest = fmax(sum->widest, part->widest);
@@ -46,6 +48,7 @@ static void tally_join(tally *sum, const tally *part)
 static tally measure(rays_kind kind, mns_kernel kernel, long rays, long first_seed)
 {
     tally sum = {0};
+    double start = clock_ms();
 #pragma omp parallel
     {
         tally part = {0};
@@ -66,16 +69,17 @@ static tally measure(rays_kind kind, mns_kernel kernel, long rays, long first_se
         tally_join(&sum, &part);
         truth_thread_end();
     }
+    sum.seconds = (clock_ms() - start) / 1000;
     return sum;
 }
 
-static void print_row(const char *kind, const char *kernel, const tally *t, double seconds)
+static void print_row(const char *name, const tally *t)
 {
     size_t rays = 0;
     for (int v = 0; v < JUDGE_VERDICTS; v++) rays += t->count[v];
-    printf("| %s | %s | %zu | %zu | %zu | %zu | %zu | %zu | %.1e | %.4f | %.1e | %.1e | %.1f |\n", kind,
-           kernel, rays, t->hits, t->count[JUDGE_UNDECIDED], t->count[JUDGE_NEEDLESS], t->count[JUDGE_WRONG],
-           t->count[JUDGE_UNTOLD], t->open, t->worst, t->farthest, t->widest, seconds);
+    printf("| %s | %zu | %zu | %zu | %zu | %zu | %zu | %.1e | %.4f | %.1e | %.1e | %.1f |\n", name, rays,
+           t->hits, t->count[JUDGE_UNDECIDED], t->count[JUDGE_NEEDLESS], t->count[JUDGE_WRONG],
+           t->count[JUDGE_UNTOLD], t->open, t->worst, t->farthest, t->widest, t->seconds);
     fflush(stdout);
 }
 
@@ -92,21 +96,24 @@ int main(int argc, char **argv)
                 parts);
         return 2;
     }
-    puts("| rays | kernel | number | hit | undecided | undecided without need | wrong | oracle untold | "
-         "largest "
-         "gap left open | worst \\|t - t*\\| / t.err | worst \\|t - t*\\| / max(t, R) | widest t.err / "
-         "max(t, R) "
-         "| seconds |\n"
-         "|-|-|-|-|-|-|-|-|-|-|-|-|-|");
-    tally all = {0};
-    double start = clock_ms();
-    for (rays_kind kind = 0; kind < RAYS_KINDS; kind++)
+    puts("| rays | number | hit | undecided | undecided without need | wrong | oracle untold | largest gap "
+         "left "
+         "open | worst \\|t - t*\\| / t.err | worst \\|t - t*\\| / max(t, R) | widest t.err / max(t, R) | "
+         "seconds |\n"
+         "|-|-|-|-|-|-|-|-|-|-|-|-|");
+    tally all = {0}, by_kernel[MNS_KERNEL_COUNT] = {{.seconds = 0}};
+    for (rays_kind kind = 0; kind < RAYS_KINDS; kind++) {
+        tally by_kind = {0};
         for (mns_kernel kernel = MNS_KERNEL_POLY2; kernel < MNS_KERNEL_COUNT; kernel++) {
-            double began = clock_ms();
             tally t = measure(kind, kernel, (rays + parts - 1) / parts, first_seed);
-            print_row(rays_name(kind), mns_kernel_name(kernel), &t, (clock_ms() - began) / 1000);
-            tally_join(&all, &t);
+            tally_join(&by_kind, &t);
+            tally_join(&by_kernel[kernel], &t);
         }
-    print_row("all", "", &all, (clock_ms() - start) / 1000);
+        print_row(rays_name(kind), &by_kind);
+        tally_join(&all, &by_kind);
+    }
+    for (mns_kernel kernel = MNS_KERNEL_POLY2; kernel < MNS_KERNEL_COUNT; kernel++)
+        print_row(mns_kernel_name(kernel), &by_kernel[kernel]);
+    print_row("all", &all);
     return all.count[JUDGE_NEEDLESS] || all.count[JUDGE_WRONG] || all.count[JUDGE_UNTOLD];
 }
