@@ -51,10 +51,10 @@ static color diverging(double v)
                    (unsigned char)lround(part[2])};
 }
 
-/* -1 to 1: the signed difference on a scale that is logarithmic beyond a thousandth of the range. */
+/* -1 to 1: the signed difference on a scale that is logarithmic beyond a hundredth of the range. */
 static double depth_position(const truth_planes *truth, double t, double true_t)
 {
-    const double knee = 1000 / PICTURES_DEPTH_RANGE;
+    const double knee = 100 / PICTURES_DEPTH_RANGE;
     double unit = truth->has_view ? metrics_footprint(&truth->view, true_t) : 1e-3 * true_t;
     return asinh((t - true_t) / unit * knee) / asinh(PICTURES_DEPTH_RANGE * knee);
 }

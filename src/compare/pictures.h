@@ -19,8 +19,8 @@ typedef struct picture_list {
 
 /* The ends of the signed depth difference's colours, in pixel footprints (without a view: in 1e-3 t*): blue
  * where the image is nearer than the truth, red where it is farther; grey where there is nothing to compare.
- * The scale is that of asinh, so that small differences show too. */
-#define PICTURES_DEPTH_RANGE 1.0
+ * The scale is that of asinh, linear within a hundredth of the range: small differences show too. */
+#define PICTURES_DEPTH_RANGE 10.0
 /* Colours of the hit mask, "#rrggbb", by metrics_mask. */
 extern const char *const PICTURES_MASK_COLOR[];
 

@@ -161,6 +161,7 @@ mns_status truth_from_image(const mns_image *image, truth_planes **result, mns_e
     mns_status status = truth_allocate(image->width, image->height, false, image->rgba != NULL, &p, error);
     if (status) return status;
     size_t pixels = (size_t)image->width * (size_t)image->height;
+    p->ms = NAN;
     for (size_t i = 0; i < pixels; i++) {
         bool hit = isfinite(image->t[i]) != 0;
         p->t[i] = hit ? (double)image->t[i] + (double)image->t_lo[i] : INFINITY;

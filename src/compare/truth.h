@@ -20,7 +20,7 @@ typedef struct truth_planes {
     bool has_view;
     mns_view view; /* resolved, where has_view */
     size_t hits, undecided;
-    double ms;                  /* what tracing it took, when it was traced */
+    double ms;                  /* what tracing it took, when it was traced; NAN where it was not here */
     bool cached;                /* it came from the cache */
     char hash[TRUTH_HASH_SIZE]; /* of all that it depends on; "" without */
     char note[200];             /* why the cache could not be used; "" where it was, or was not asked for */
