@@ -9,7 +9,21 @@ static const char traced[] = "the reference is traced on the CPU";
 mns_status plan_reference(mns_plan *plan, const mns_field *field, bool host, mns_error *error)
 {
     static const char *const parts[] = {
-        "sort", "upload", "core depth", "gather", "cast", "resolve", "rays that begin at the box"};
+        "sort",
+        "upload",
+        "core depth",
+        "gather",
+        "cast",
+        "resolve",
+        "a radius a ball",
+        "a strength a ball",
+        "points for small balls",
+        "rectangles for large balls",
+        "rays that start inside a ball",
+        "the way out of the surface",
+        "rays that begin at the box",
+        "reading by texels",
+    };
     if (host)
         return status_fail(error, MNS_ERROR_UNSUPPORTED,
                            "the reference draws on no host's framebuffer; take the method list");

@@ -4,8 +4,9 @@
 
 #include <math.h>
 
-/* Beyond this a ray is given up as undecided: some hundred times what the hardest rays of the tests take. */
-enum { PIECES_MOST = 400000 };
+/* Beyond so many balls looked at, those of every piece counted, a ray is given up as undecided: seconds, and
+ * some hundred times what ten thousand balls at one point take. */
+#define WORK_MOST 200000000
 
 /* The walk looks at F = side (f - L), which is above 0 until the hit. Pieces are taken from left to right and
  * halved until one of three things is proven: F > 0 on the whole piece; F falls on it, from above 0 to below;
@@ -17,7 +18,7 @@ typedef struct search {
     reference_scratch *scratch;
     const mns_field *field;
     double side;
-    size_t pieces;
+    size_t work; /* balls looked at, and pieces */
     bool failed; /* out of memory */
     bool given_up;
     bool hidden;       /* F's sign is hidden from hidden_from on; F > 0 up to there */
@@ -220,16 +221,12 @@ static bool narrow(search *s, size_t first, size_t count, double from, double to
 static bool visit(search *s, double from, double to, size_t first, size_t count)
 {
     reference_list *active = &s->scratch->active;
-    if (++s->pieces > PIECES_MOST) {
-        s->given_up = true;
-        return false;
-    }
     size_t top = active->count;
-    if (!narrow(s, first, count, from, to)) {
-        s->failed = true;
-        return false;
-    }
+    s->given_up = s->work > WORK_MOST;
+    s->failed = !s->given_up && !narrow(s, first, count, from, to);
+    if (s->given_up || s->failed) return false;
     size_t mine = active->count - top;
+    s->work += mine + 16;
     piece_balls balls = balls_of(s, top, mine);
     double middle = from + 0.5 * (to - from);
     bool can_halve = middle > from && middle < to, goes_on;

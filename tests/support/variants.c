@@ -11,6 +11,13 @@ static bool implies(uint64_t features, uint64_t a, uint64_t b)
 bool variant_possible(uint64_t f)
 {
     unsigned kernel = f & FEATURE_KERNEL, solver = (f & FEATURE_SOLVER) >> 3;
+    if (f & FEATURE_REFERENCE) { /* its looks, and nothing of the list */
+        uint64_t looks = FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_DIRECTIONAL |
+                         FEATURE_SPECULAR | FEATURE_SAMPLES;
+        return kernel >= MNS_KERNEL_POLY2 && kernel <= MNS_KERNEL_WENDLAND &&
+               !(f & ~(looks | FEATURE_KERNEL | FEATURE_REFERENCE)) &&
+               implies(f, FEATURE_LABELS, FEATURE_COLORS);
+    }
     bool each_core = f & FEATURE_CORE && f & FEATURE_STRENGTHS;
     return kernel >= MNS_KERNEL_POLY2 && kernel <= MNS_KERNEL_WENDLAND &&
            solver <= MNS_SOLVER_CUBIC_MONOMIAL && f & (FEATURE_POINTS | FEATURE_QUADS) &&
