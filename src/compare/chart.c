@@ -12,8 +12,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char **environ;
-
 /* A run's place in the chart. */
 typedef struct chart_point {
     char curve[64]; /* "list exact" */

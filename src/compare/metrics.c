@@ -141,8 +141,8 @@ static double residual(const truth_planes *truth, const mns_image *image, size_t
 {
     double t = image_t(image, i), d[3], point[3];
     if (!reference || !truth->has_view || !isfinite(t)) return NAN;
-    size_t width = (size_t)truth->width;
-    mns_view_ray(&truth->view, (double)(i % width) + 0.5, (double)(i / width) + 0.5, d);
+    int x = (int)(i % (size_t)truth->width), y = (int)(i / (size_t)truth->width);
+    mns_view_ray(&truth->view, x + 0.5, y + 0.5, d);
     for (int axis = 0; axis < 3; axis++) point[axis] = truth->view.eye[axis] + t * d[axis];
     return fabs(mns_reference_value(reference, point, NULL, NULL) - iso) / iso;
 }
