@@ -1,0 +1,116 @@
+/* A subtree, depth first, by one thread. */
+#include "base/memory.h"
+#include "fbvh/work.h"
+
+#include <string.h>
+
+bool work_reserve(void *block, size_t *capacity, size_t count, size_t size)
+{
+    if (count <= *capacity) return true;
+    size_t wish = *capacity + *capacity / 2;
+    if (wish < count) wish = count;
+    void *old;
+    memcpy(&old, block, sizeof old);
+    void *grown = memory_resize(old, wish, size);
+    if (!grown) return false;
+    memcpy(block, &grown, sizeof grown);
+    *capacity = wish;
+    return true;
+}
+
+static bool close_leaf(const work_set *set, work_node *node, work_bench *bench, fbvh_node *result,
+                       bool *found, work_tally *tally)
+{
+    uint32_t *list = bench->list + node->first;
+    size_t discarded, count = work_leaf(set, node, list, &discarded);
+    *found = count > 0;
+    if (!count) return true;
+    if (!work_reserve(&bench->reference, &bench->reference_capacity, bench->reference_count + count,
+                      sizeof *bench->reference))
+        return false;
+    memcpy(bench->reference + bench->reference_count, list, count * sizeof *list);
+    *result = (fbvh_node){.first = (uint32_t)bench->reference_count, .count = (uint32_t)count};
+    memcpy(result->lo, node->lo, sizeof result->lo);
+    memcpy(result->hi, node->hi, sizeof result->hi);
+    bench->reference_count += count;
+    tally->leaves++;
+    tally->discarded += discarded;
+    tally->own += node->own;
+    if (count > tally->leaf_largest) tally->leaf_largest = count;
+    return true;
+}
+
+/* Cuts the node; its children's references take the place of its own in the stack, the second's below the
+ * first's, so that the first can be built and forgotten. 1: two children; 0: one, which *node has become;
+ * -1: a leaf; -2: no surface; -3: out of memory. */
+enum { CUT_PAIR = 1, CUT_ONE = 0, CUT_LEAF = -1, CUT_EMPTY = -2, CUT_MEMORY = -3 };
+static int cut_node(const work_set *set, work_node *node, work_bench *bench, work_node child[2],
+                    work_tally *tally)
+{
+    work_cut cut;
+    bool bounded;
+    bool wanted = work_choose(set, node, bench->list + node->first, &cut, &bounded);
+    tally->bounded += bounded;
+    if (!wanted) return CUT_LEAF;
+    size_t top = node->first + node->count;
+    if (!work_reserve(&bench->list, &bench->list_capacity, top + 2 * node->count, sizeof *bench->list))
+        return CUT_MEMORY;
+    uint32_t *list = bench->list + node->first;
+    uint32_t *list_of[2] = {list + node->count, list + 2 * node->count};
+    work_part(set, node, list, &cut, list_of, child);
+    if (!work_share(node, child)) {
+        tally->bounded++;
+        return CUT_LEAF;
+    }
+    if (!child[0].count && !child[1].count) return CUT_EMPTY;
+    child[1].first = node->first;
+    child[0].first = node->first + child[1].count;
+    memcpy(list, list_of[1], child[1].count * sizeof *list);
+    memmove(list + child[1].count, list_of[0], child[0].count * sizeof *list);
+    if (child[0].count && child[1].count) return CUT_PAIR;
+    *node = child[child[0].count ? 0 : 1];
+    return CUT_ONE;
+}
+
+static bool grow(const work_set *set, work_node *node, work_bench *bench, fbvh_node *result, bool *found,
+                 work_tally *tally, size_t *depth)
+{
+    work_node child[2];
+    int cut;
+    *depth = 0;
+    do cut = cut_node(set, node, bench, child, tally);
+    while (cut == CUT_ONE);
+    *found = false;
+    if (cut == CUT_LEAF) return close_leaf(set, node, bench, result, found, tally);
+    if (cut != CUT_PAIR) return cut == CUT_EMPTY;
+
+    fbvh_node pair[2];
+    bool is[2];
+    size_t depth_of[2];
+    for (int k = 0; k < 2; k++)
+        if (!grow(set, &child[k], bench, &pair[k], &is[k], tally, &depth_of[k])) return false;
+    *found = is[0] || is[1];
+    if (is[0] != is[1]) {
+        *result = pair[is[1]];
+        *depth = depth_of[is[1]];
+    }
+    if (!is[0] || !is[1]) return true;
+    if (!work_reserve(&bench->node, &bench->node_capacity, bench->node_count + 2, sizeof *bench->node))
+        return false;
+    *result = work_join(set, node, pair, bench->node_count);
+    memcpy(bench->node + bench->node_count, pair, sizeof pair);
+    bench->node_count += 2;
+    *depth = 1 + (depth_of[0] > depth_of[1] ? depth_of[0] : depth_of[1]);
+    return true;
+}
+
+bool work_subtree(const work_set *set, const work_node *node, const uint32_t *list, work_bench *bench,
+                  fbvh_node *result, bool *found, work_tally *tally)
+{
+    if (!work_reserve(&bench->list, &bench->list_capacity, 3 * node->count, sizeof *bench->list))
+        return false;
+    memcpy(bench->list, list, node->count * sizeof *list);
+    work_node root = *node;
+    root.first = 0;
+    return grow(set, &root, bench, result, found, tally, &tally->depth);
+}
