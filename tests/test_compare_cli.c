@@ -63,6 +63,8 @@ static void a_folder_of_something_else_is_refused_before_any_work(void **state)
     cli_expect_error(c, 1, "has notes.txt in it");
     cli_run(c, "compare scattered:10000000 -o notes.txt");
     cli_expect_error(c, 1, "notes.txt: is no folder");
+    cli_run(c, "compare scattered:10000000 -o none/out/");
+    cli_expect_error(c, 1, "none/out/: cannot write: No such file or directory");
     assert_int_equal(cli_count_files(c), 1);
 }
 

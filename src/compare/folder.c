@@ -50,9 +50,25 @@ static bool find_strange(const char *path, char name[256])
     return strange;
 }
 
+/* Is there a folder to make the new one in? */
+static mns_status check_parent(const char *path, mns_error *error)
+{
+    char *parent = strdup(path);
+    if (!parent) return status_no_memory(error, "naming a folder");
+    size_t length = strlen(parent);
+    while (length > 1 && parent[length - 1] == '/') length--;
+    while (length > 0 && parent[length - 1] != '/') length--;
+    parent[length] = '\0';
+    int code = access(length ? parent : ".", W_OK | X_OK) ? errno : 0;
+    free(parent);
+    return code ? failed(path, "write", code, error) : MNS_OK;
+}
+
 mns_status folder_check(const char *path, mns_error *error)
 {
     struct stat about;
+    mns_status status = check_parent(path, error);
+    if (status) return status;
     if (stat(path, &about)) return errno == ENOENT ? MNS_OK : failed(path, "look there", errno, error);
     if (!S_ISDIR(about.st_mode))
         return status_fail(error, MNS_ERROR_IO, "%.300s: is no folder; give another name", path);
