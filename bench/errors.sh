@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The tables and charts of errors.md, "Errors against time": bench/errors.sh [SCENE]... (default: all). Prints the tables
-# and leaves the charts in bench/errors/. Nothing else should run meanwhile. Needs what ./run test installs, gnuplot-nox and
-# python3.
+# The section "Errors against time" of errors.md, measured here and now: bench/errors.sh [SCENE]... (default: all). Writes
+# the section with its tables, and the charts in bench/errors/. Nothing else should run meanwhile. Needs what ./run test
+# installs, gnuplot-nox and python3.
 set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/.."
 command -v gnuplot >/dev/null || { echo "bench/errors.sh: gnuplot is missing (package gnuplot-nox)" >&2; exit 1; }
@@ -27,4 +27,4 @@ for scene in "$@"; do
     build/release/meniscus compare "${arguments[@]}" "${OPTIONS[@]}" -o "$results/$scene" >&2
     cp "$results/$scene/chart.svg" "bench/errors/$scene.svg"
 done
-python3 bench/errors.py "${@/#/$results/}"
+python3 bench/errors.py bench/errors.md "${@/#/$results/}"
