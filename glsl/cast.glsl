@@ -121,10 +121,13 @@ int cast_walk(uint head, float limit, out float s)
 void main()
 {
     vec2 position = gl_FragCoord.xy;
-    uint head = imageLoad(list_heads, ivec2(position)).x;
+    uint head = list_head(ivec2(position));
     Pixel pixel = pixel_miss(true);
     if (head != NO_NODE) {
         Ray ray = view_ray(position);
+#ifdef TILES
+        list_ray = ray;
+#endif
         float limit = FAR_AWAY;
 #ifdef HOST_DEPTH
         limit = host_limit(position);

@@ -1,5 +1,7 @@
 // A ball's chord on the ray, with what the pieces need of the ball.
+#ifndef TILES // the lists have it already
 #include "chord_ends.glsl"
+#endif
 
 struct Chord {
     REAL a, b;      // where the ray enters and leaves; a < b

@@ -5,6 +5,10 @@
 // find an empty list instead of one without an end.
 const uint NO_NODE = 0u;
 
+#ifdef TILES
+#include "chord_ends.glsl"
+#include "tiles.glsl"
+#else
 layout(binding = 0, r32ui) LISTS_ACCESS uniform uimage2D list_heads;
 #ifdef LISTS_TEXELS
 layout(binding = 3) uniform usamplerBuffer list_texels;
@@ -14,4 +18,7 @@ layout(std430, binding = 2) LISTS_ACCESS buffer Nodes {
     uvec4 list_nodes[];
 };
 uvec4 list_node(uint node) { return list_nodes[node]; }
+#endif
+
+uint list_head(ivec2 pixel) { return imageLoad(list_heads, pixel).x; }
 #endif

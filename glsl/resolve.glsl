@@ -69,7 +69,10 @@ void main()
     ivec2 at = ivec2(entry.x & 0xffffu, entry.x >> 16u);
     vec2 position = vec2(at) + 0.5;
     links_ray = view_ray(position);
-    links_first = imageLoad(list_heads, at).x;
+#ifdef TILES
+    list_ray = links_ray;
+#endif
+    links_first = list_head(at);
     links_past = links_first;
     REAL limit = FAR_AWAY;
 #ifdef HOST_DEPTH

@@ -226,7 +226,8 @@ typedef struct mns_look {
 typedef enum mns_method {
     MNS_METHOD_AUTO = 0,
     MNS_METHOD_LIST,
-    MNS_METHOD_REFERENCE /* on the CPU, certified: mns_reference; its solver is always exact */
+    MNS_METHOD_REFERENCE, /* on the CPU, certified: mns_reference; its solver is always exact */
+    MNS_METHOD_TILE       /* the list's cast over lists a tile of pixels long, binned on the CPU */
 } mns_method;
 typedef enum mns_solver { MNS_SOLVER_EXACT = 0, MNS_SOLVER_CUBIC, MNS_SOLVER_CUBIC_MONOMIAL } mns_solver;
 typedef enum mns_gather { MNS_GATHER_EARLY_Z = 0, MNS_GATHER_PAPER } mns_gather;

@@ -128,7 +128,7 @@ static void compare_writes_every_method_of_the_build(void **state)
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         if (!cli_exists(c, files[i])) fail_msg("no %s", files[i]);
     json_t *root = load(c, "out/results.json"), *runs = json_object_get(root, "runs");
-    assert_int_equal(json_array_size(runs), 4);
+    assert_int_equal(json_array_size(runs), 6);
     const json_t *exact = json_array_get(runs, 0), *cubic = json_array_get(runs, 1);
     assert_string_equal(json_string_value(json_object_get(exact, "name")), "list:exact");
     assert_int_equal(json_integer_value(json_object_get(exact, "frames")), 5);

@@ -23,12 +23,16 @@ static const known_method METHODS[] = {
     {"list", "exact", MNS_METHOD_LIST, MNS_SOLVER_EXACT},
     {"list", "cubic", MNS_METHOD_LIST, MNS_SOLVER_CUBIC},
     {"list", "cubic-monomial", MNS_METHOD_LIST, MNS_SOLVER_CUBIC_MONOMIAL},
+    {"tile", "exact", MNS_METHOD_TILE, MNS_SOLVER_EXACT},
+    {"tile", "cubic", MNS_METHOD_TILE, MNS_SOLVER_CUBIC},
+    {"tile", "cubic-monomial", MNS_METHOD_TILE, MNS_SOLVER_CUBIC_MONOMIAL},
     {"reference", "exact", MNS_METHOD_REFERENCE, MNS_SOLVER_EXACT},
 };
 enum { METHOD_COUNT = sizeof METHODS / sizeof *METHODS };
 
 /* What is run where nothing is asked for: all but the truth itself, and the passes as published. */
-static const char DEFAULT_RUNS[] = "list:exact,list:cubic,list:cubic-monomial,list:exact:gather=paper";
+static const char DEFAULT_RUNS[] =
+    "list:exact,list:cubic,list:cubic-monomial,list:exact:gather=paper,tile:exact,tile:cubic";
 
 typedef struct known_key {
     const char *key;

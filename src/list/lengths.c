@@ -39,6 +39,16 @@ bool list_lengths_add(list_lengths *lengths, list_passes *p, gl_device *device, 
     return good;
 }
 
+bool list_lengths_share(list_lengths *lengths, uint32_t length, size_t pixels)
+{
+    if (!length) return true;
+    uint32_t *larger = memory_resize(lengths->length, lengths->count + pixels, sizeof *larger);
+    if (!larger) return false;
+    lengths->length = larger;
+    for (size_t i = 0; i < pixels; i++) larger[lengths->count++] = length;
+    return true;
+}
+
 static int ascending(const void *a, const void *b)
 {
     uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;

@@ -51,12 +51,13 @@ static mns_status buffers(list_passes *p, gl_device *device, const mns_plan *pla
         const char *what;
         size_t size;
     } wanted[] = {
-        {&p->nodes, "node pool", plan->pool_nodes * LIST_NODE},
-        {&p->counter, "node counter", sizeof(uint32_t)},
         {&p->redo, "list of pixels to resolve", sizeof(list_counts) + p->redo_capacity * entry},
         {&p->view, "view", VIEW_VECTORS * 4 * sizeof(float)},
+        {&p->nodes, "node pool", plan->pool_nodes * LIST_NODE},
+        {&p->counter, "node counter", sizeof(uint32_t)},
     };
-    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+    size_t count = plan->features & FEATURE_TILES ? 2 : sizeof wanted / sizeof *wanted;
+    for (size_t i = 0; i < count; i++) {
         mns_status status =
             gl_buffer_reserve(device, wanted[i].buffer, wanted[i].what, wanted[i].size, block, error);
         if (status) return status;
@@ -70,26 +71,30 @@ mns_status list_passes_prepare(list_passes *p, gl_device *device, const mns_plan
 {
     const GladGLContext *gl = &device->gl;
     int width = plan->frame.width, height = plan->frame.height;
-    bool depth = plan->features & (FEATURE_CORE | FEATURE_HOST), host = plan->features & FEATURE_HOST;
+    bool tiles = plan->features & FEATURE_TILES, host = plan->features & FEATURE_HOST;
+    bool depth = !tiles && plan->features & (FEATURE_CORE | FEATURE_HOST);
     bool resized = width != p->width || height != p->height;
     if (!p->vertex_array) gl->GenVertexArrays(1, &p->vertex_array);
     if (resized) { /* what this plan leaves out must not come back in the old size */
+        gl->DeleteTextures(1, &p->heads);
         gl->DeleteTextures(1, &p->core_depth);
         gl->DeleteTextures(1, &p->host_depth);
         gl->DeleteFramebuffers(1, &p->depth_target);
-        p->core_depth = p->host_depth = p->depth_target = 0;
+        gl->DeleteFramebuffers(1, &p->heads_target);
+        gl->DeleteFramebuffers(1, &p->bare_target);
+        p->heads = p->core_depth = p->host_depth = 0;
+        p->depth_target = p->heads_target = p->bare_target = 0;
     }
-    if (resized || !p->heads) {
+    if (!tiles && !p->heads) {
         texture_make(device, &p->heads, GL_R32UI, width, height);
         target_make(device, &p->heads_target, GL_COLOR_ATTACHMENT0, p->heads);
     }
-    if (depth && (resized || !p->core_depth)) {
+    if (depth && !p->core_depth) {
         texture_make(device, &p->core_depth, GL_DEPTH_COMPONENT32F, width, height);
         target_make(device, &p->depth_target, GL_DEPTH_ATTACHMENT, p->core_depth);
     }
-    if (resized || !p->bare_target) target_make_bare(device, &p->bare_target, width, height);
-    if (host && (resized || !p->host_depth))
-        texture_make(device, &p->host_depth, GL_DEPTH_COMPONENT32F, width, height);
+    if (!tiles && !p->bare_target) target_make_bare(device, &p->bare_target, width, height);
+    if (host && !p->host_depth) texture_make(device, &p->host_depth, GL_DEPTH_COMPONENT32F, width, height);
     p->width = width;
     p->height = height;
     mns_status status = buffers(p, device, plan, error);
@@ -103,13 +108,15 @@ mns_status list_passes_prepare(list_passes *p, gl_device *device, const mns_plan
 void list_passes_free(list_passes *p, gl_device *device)
 {
     const GladGLContext *gl = &device->gl;
-    gl_buffer *all[] = {&p->balls, &p->balls_low, &p->cores,     &p->colors,    &p->nodes,    &p->counter,
-                        &p->redo,  &p->view,      &p->view_wide, &p->far_block, &p->backwards};
+    gl_buffer *all[] = {&p->balls,     &p->balls_low, &p->cores,     &p->colors,    &p->nodes,
+                        &p->counter,   &p->redo,      &p->view,      &p->view_wide, &p->far_block,
+                        &p->backwards, &p->entries,   &p->tile_heads};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) gl_buffer_free(device, all[i]);
-    GLuint textures[] = {p->heads, p->core_depth, p->host_depth, p->ball_texels, p->node_texels};
+    GLuint textures[] = {p->heads,       p->core_depth,  p->host_depth,
+                         p->ball_texels, p->node_texels, p->head_texels};
     GLuint targets[] = {p->heads_target, p->depth_target, p->bare_target};
-    gl->DeleteTextures(5, textures);
-    gl->DeleteFramebuffers(3, targets);
+    gl->DeleteTextures(sizeof textures / sizeof *textures, textures);
+    gl->DeleteFramebuffers(sizeof targets / sizeof *targets, targets);
     gl->DeleteVertexArrays(1, &p->vertex_array);
     *p = (list_passes){0};
 }

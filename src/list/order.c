@@ -27,6 +27,7 @@ static cull cull_make(const mns_plan *plan)
     c.side_y = sqrt(1 + c.tan_y * c.tan_y);
     c.pixels = f->height / (2 * f->tan_half);
     c.most_point = plan->features & FEATURE_POINTS ? plan->limits.max_point_size - 1 : 0;
+    if (plan->features & FEATURE_TILES) c.most_point = INFINITY; /* nobody draws billboards */
     return c;
 }
 
@@ -50,8 +51,9 @@ static bool cull_ball(const cull *c, vec3 at, double radius, uint32_t *key, bool
         return false;
     double away = vec3_length(d), square = (z - radius) * (z + radius), widest = x > y ? x : y;
     /* Diameter of the projection: between the tangents from the eye. */
-    *point = z > 1.01 * radius &&
-             2.001 * c->pixels * radius * sqrt(widest * widest + square) < square * c->most_point;
+    *point = c->most_point == INFINITY ||
+             (z > 1.01 * radius &&
+              2.001 * c->pixels * radius * sqrt(widest * widest + square) < square * c->most_point);
     double far_part = c->plane_depth > 0 ? away - c->plane_depth : away;
     *key = sortable((float)(far_part - radius));
     return true;

@@ -26,6 +26,11 @@ typedef struct list_order {
 mns_status list_order_make(list_order *order, const mns_field *field, const mns_plan *plan, mns_error *error);
 void list_order_free(list_order *order);
 
+static inline const list_ball *list_ball_at(const list_order *order, size_t place)
+{
+    return &order->ball[(uint32_t)order->key[place]];
+}
+
 /* Fewer balls are sorted and packed by one thread: OpenMP's threads go on spinning for milliseconds after
  * their work, on the processors that a software renderer then wants (docs/decisions.md). */
 enum { ORDER_ALONE = 32768 };

@@ -5,11 +5,6 @@
 
 #include <string.h>
 
-static const list_ball *ball_at(const list_order *order, size_t place)
-{
-    return &order->ball[(uint32_t)order->key[place]];
-}
-
 /* A double as the float nearest to it, forced through memory: one compiler kept the wider value in a
  * register. */
 static float rounded(double value)
@@ -24,7 +19,7 @@ void list_pack_high(const list_order *order, const mns_field *field, const mns_p
     bool radii = plan->features & FEATURE_RADII, strengths = plan->features & FEATURE_STRENGTHS;
 #pragma omp parallel for if (order->count > ORDER_ALONE)
     for (size_t place = 0; place < order->count; place++) {
-        const list_ball *ball = ball_at(order, place);
+        const list_ball *ball = list_ball_at(order, place);
         float *to = out + place * stride;
         memcpy(to, ball->position, sizeof ball->position);
         if (radii) to[3] = (float)field->p.radius[ball->index];
@@ -41,7 +36,7 @@ void list_pack_low(const list_order *order, const mns_field *field, const mns_pl
     bool radii = plan->features & FEATURE_RADII, strengths = plan->features & FEATURE_STRENGTHS;
 #pragma omp parallel for if (order->count > ORDER_ALONE)
     for (size_t place = 0; place < order->count; place++) {
-        const list_ball *ball = ball_at(order, place);
+        const list_ball *ball = list_ball_at(order, place);
         float *to = out + place * stride;
         for (int axis = 0; axis < 3; axis++) {
             double exact = field->p.axis[axis][ball->index] - plan->origin[axis];
@@ -62,7 +57,7 @@ void list_pack_cores(const list_order *order, const mns_field *field, float *out
 {
 #pragma omp parallel for if (order->count > ORDER_ALONE)
     for (size_t place = 0; place < order->count; place++) {
-        uint32_t index = ball_at(order, place)->index;
+        uint32_t index = list_ball_at(order, place)->index;
         double q = field_strength(field, index);
         double ratio = q > field->iso ? kernel_core_radius(field->kernel, field->iso / q) : 0;
         out[place] = (float)(field_radius(field, index) * ratio);
@@ -76,7 +71,7 @@ void list_pack_colors(const list_order *order, const mns_field *field, const mns
     double low = plan->color_range[0], span = plan->color_range[1] - low;
 #pragma omp parallel for if (order->count > ORDER_ALONE)
     for (size_t place = 0; place < order->count; place++) {
-        double value = column->value[ball_at(order, place)->index];
+        double value = column->value[list_ball_at(order, place)->index];
         if (!(plan->features & FEATURE_LABELS))
             ((float *)out)[place] = span != 0 ? (float)((value - low) / span) : 0.5f;
         else

@@ -8,7 +8,8 @@ enum {
     UNIFORM_SEED = 0,
     UNIFORM_TWO = 0,
     UNIFORM_INNER = 2,
-    UNIFORM_REGION = 1
+    UNIFORM_REGION = 1,
+    UNIFORM_TILE_GRID = 3
 };
 
 static void scissor(gl_device *device, const list_passes *p, list_region region)
@@ -239,21 +240,35 @@ static void bind_texels(gl_device *device, GLuint *texture, GLenum unit, GLenum 
     gl->TexBuffer(GL_TEXTURE_BUFFER, format, buffer);
 }
 
+static void bind_tiles(list_passes *p, gl_device *device, const mns_plan *plan, GLuint program)
+{
+    const GladGLContext *gl = &device->gl;
+    gl->UseProgram(program);
+    gl->Uniform4iv(UNIFORM_TILE_GRID, 1, p->tile_grid);
+    if (plan->features & FEATURE_TEXELS) {
+        bind_texels(device, &p->node_texels, GL_TEXTURE3, GL_R32UI, p->entries.id);
+        bind_texels(device, &p->head_texels, GL_TEXTURE4, GL_R32UI, p->tile_heads.id);
+    }
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, p->entries.id);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, p->tile_heads.id);
+}
+
 /* What both the cast and resolve read. */
-static void bind_lists(list_passes *p, gl_device *device, const mns_plan *plan)
+static void bind_lists(list_passes *p, gl_device *device, const mns_plan *plan, GLuint program)
 {
     static const GLenum formats[] = {[3] = GL_RGB32F, [4] = GL_RGBA32F, [5] = GL_R32F};
     const GladGLContext *gl = &device->gl;
     if (plan->features & FEATURE_TEXELS) {
         bind_texels(device, &p->ball_texels, GL_TEXTURE2, formats[plan->ball_floats], p->balls.id);
-        bind_texels(device, &p->node_texels, GL_TEXTURE3, GL_RGBA32UI, p->nodes.id);
+        if (p->nodes.id) bind_texels(device, &p->node_texels, GL_TEXTURE3, GL_RGBA32UI, p->nodes.id);
     }
     if (p->far_block.id) gl->BindBufferBase(GL_UNIFORM_BUFFER, 1, p->far_block.id);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, p->balls.id);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, p->nodes.id);
+    if (plan->features & FEATURE_TILES) bind_tiles(p, device, plan, program);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, p->redo.id);
     if (p->colors.id) gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 4, p->colors.id);
-    gl->BindImageTexture(0, p->heads, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
+    if (p->heads) gl->BindImageTexture(0, p->heads, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32UI);
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(GL_TEXTURE_2D, p->host_depth);
 }
@@ -268,7 +283,7 @@ void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GL
     gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
     gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof none, &none);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view.id);
-    bind_lists(p, device, plan);
+    bind_lists(p, device, plan, program[SHADER_CAST]);
     draw_screen(p, device, program[SHADER_CAST]);
     read_counts(p, device, counts);
 }
@@ -292,9 +307,9 @@ void list_resolve(list_passes *p, gl_device *device, const mns_plan *plan, GLuin
                   const GLuint plane[3], list_counts *counts)
 {
     const GladGLContext *gl = &device->gl;
+    bind_lists(p, device, plan, program);
     gl->UseProgram(program);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, wide ? p->view_wide.id : p->view.id);
-    bind_lists(p, device, plan);
     if (wide) gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, p->balls_low.id);
     gl->BindImageTexture(1, plane[0], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
     gl->BindImageTexture(2, plane[1], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);

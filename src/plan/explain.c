@@ -8,7 +8,7 @@ static const char *const feature_names[FEATURE_COUNT] = {
     [10] = "points",      [11] = "quads",     [12] = "eye_in_ball", [13] = "eye_inside", [14] = "far",
     [15] = "host",        [16] = "shuffle",   [17] = "colors",      [18] = "labels",     [19] = "cel",
     [20] = "directional", [21] = "specular",  [22] = "samples",     [23] = "clip_zero",  [24] = "texels",
-    [25] = "flat_cores",  [26] = "reference",
+    [25] = "flat_cores",  [26] = "reference", [27] = "tiles",
 };
 
 static const char *const solver_names[] = {"exact", "cubic", "cubic-monomial"};
@@ -17,7 +17,10 @@ static void print_plan(FILE *out, const mns_plan *plan, const mns_field *field)
 {
     const mns_view *v = &plan->view;
     bool traced = plan->features & FEATURE_REFERENCE;
-    fprintf(out, "method %s (%s), solver %s, kernel %s, L %g\n", traced ? "reference" : "list",
+    fprintf(out, "method %s (%s), solver %s, kernel %s, L %g\n",
+            traced                           ? "reference"
+            : plan->features & FEATURE_TILES ? "tile"
+                                             : "list",
             plan->method_reason, solver_names[plan->options.solver], mns_kernel_name(field->kernel),
             field->iso);
     fprintf(out, "frame %dx%d, eye %g,%g,%g, look-at %g,%g,%g, fov %g\n", v->width, v->height, v->eye[0],

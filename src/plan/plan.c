@@ -30,9 +30,9 @@ void plan_leave_out(mns_plan *plan, const char *part, const char *reason)
 
 static mns_status check_options(const mns_options *options, mns_error *error)
 {
-    if ((unsigned)options->method > MNS_METHOD_REFERENCE)
+    if ((unsigned)options->method > MNS_METHOD_TILE)
         return status_fail(error, MNS_ERROR_USAGE,
-                           "options: method %d is not in this build; take list or reference",
+                           "options: method %d is not in this build; take list, tile or reference",
                            options->method);
     if (options->method == MNS_METHOD_REFERENCE && options->solver != MNS_SOLVER_EXACT)
         return status_fail(error, MNS_ERROR_USAGE,
@@ -42,6 +42,9 @@ static mns_status check_options(const mns_options *options, mns_error *error)
         return status_fail(error, MNS_ERROR_USAGE, "options: no solver %d", options->solver);
     if ((unsigned)options->gather > MNS_GATHER_PAPER)
         return status_fail(error, MNS_ERROR_USAGE, "options: no gather %d", options->gather);
+    if (options->method == MNS_METHOD_TILE && (options->gather != MNS_GATHER_EARLY_Z || options->shuffle))
+        return status_fail(error, MNS_ERROR_USAGE,
+                           "options: tiles are not gathered: leave gather and shuffle, or take list");
     if (options->samples < 0 || options->samples > 64)
         return status_fail(error, MNS_ERROR_USAGE, "options: %d samples a pixel; take 1 to 64",
                            options->samples);
@@ -161,6 +164,16 @@ static double widest_image(const mns_plan *plan, const mns_field *field)
     return 1.005 * radius * sqrt(aside * aside + square) / square * f->height / f->tan_half;
 }
 
+/* Balls come to their pixels through the tiles' lists, not through the rasteriser. */
+static void plan_tiles(mns_plan *plan)
+{
+    static const char binned[] = "tiles are binned on the CPU";
+    plan->features |= FEATURE_TILES;
+    plan_leave_out(plan, "billboards", binned);
+    plan_leave_out(plan, "gather", binned);
+    plan_leave_out(plan, "core depth as a pass", "cores close the tiles' masks");
+}
+
 /* Points for balls that fit one: a vertex each instead of four. */
 static void plan_billboards(mns_plan *plan, const mns_field *field)
 {
@@ -196,11 +209,13 @@ static void plan_rest(mns_plan *plan, size_t balls, bool host)
         plan_leave_out(plan, "a host's depth", "no host framebuffer");
     if (options->gather == MNS_GATHER_PAPER) plan->features |= FEATURE_PAPER;
     bool many = balls >= FLAT_CORES_FROM && options->gather != MNS_GATHER_PAPER;
-    if (plan->features & FEATURE_CORE && many) plan->features |= FEATURE_FLAT_CORES;
+    if (plan->features & FEATURE_CORE && many && !(plan->features & FEATURE_TILES))
+        plan->features |= FEATURE_FLAT_CORES;
     if (options->shuffle) plan->features |= FEATURE_SHUFFLE;
     if (options->solver != MNS_SOLVER_EXACT)
         plan_leave_out(plan, "certification", "the solver is a model of the field");
-    if (plan->limits.has_clip_control) plan->features |= FEATURE_CLIP_ZERO;
+    if (plan->limits.has_clip_control && !(plan->features & FEATURE_TILES))
+        plan->features |= FEATURE_CLIP_ZERO;
     plan_look_left_out(plan);
     plan_leave_out(plan, "FBVH", "no secondary rays are asked for");
     plan_leave_out(plan, "balls outside the view", "they cannot be seen");
@@ -209,15 +224,17 @@ static void plan_rest(mns_plan *plan, size_t balls, bool host)
 static void plan_passes(mns_plan *plan)
 {
     uint64_t f = plan->features;
+    bool tiles = f & FEATURE_TILES;
     struct {
         const char *name;
         bool wanted;
     } all[] = {
         {"sort", true},
+        {"bin", tiles},
         {"upload", true},
         {"host_depth", f & FEATURE_HOST},
-        {"core_depth", f & FEATURE_CORE},
-        {"gather", true},
+        {"core_depth", f & FEATURE_CORE && !tiles},
+        {"gather", !tiles},
         {"shuffle", f & FEATURE_SHUFFLE},
         {"cast", true},
         {"resolve", true},
@@ -231,7 +248,8 @@ static void plan_passes(mns_plan *plan)
 static void plan_pool(mns_plan *plan, const mns_field *field)
 {
     size_t pixels = (size_t)plan->frame.width * (size_t)plan->frame.height;
-    plan->pool_most = plan->limits.max_storage_block / LIST_NODE;
+    plan->pool_most =
+        plan->limits.max_storage_block / (plan->features & FEATURE_TILES ? TILE_ENTRY : LIST_NODE);
     if (plan->options.max_pool_nodes && plan->options.max_pool_nodes < plan->pool_most)
         plan->pool_most = plan->options.max_pool_nodes;
     plan->pool_nodes = pixels * 4 < 65536 ? 65536 : pixels * 4;
@@ -280,7 +298,10 @@ static mns_status plan_list(mns_plan *plan, const mns_field *field, bool host, m
     plan_balls(plan, field);
     plan_eye(plan, field);
     plan_core(plan, field);
-    plan_billboards(plan, field);
+    if (plan->options.method == MNS_METHOD_TILE)
+        plan_tiles(plan);
+    else
+        plan_billboards(plan, field);
     mns_status status = check_limits(plan, field, error);
     if (status) return status;
     plan_rest(plan, field->p.count, host);

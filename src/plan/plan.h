@@ -32,7 +32,8 @@ enum plan_feature {
     FEATURE_TEXELS = 1 << 24,     /* balls and lists are read as texels */
     FEATURE_FLAT_CORES = 1 << 25, /* core spheres laid down as flat squares, without a fragment shader */
     FEATURE_REFERENCE = 1 << 26,  /* traced on the CPU; nothing but colours is left to GL */
-    FEATURE_COUNT = 27
+    FEATURE_TILES = 1 << 27,      /* lists a tile of pixels long, binned on the CPU */
+    FEATURE_COUNT = 28
 };
 
 enum { PLAN_MOST = 16 }; /* passes; parts left out are at most PLAN_PARTS */
@@ -126,7 +127,7 @@ void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[
 /* Whether the plan's frame may run that program. */
 bool plan_needs(const mns_plan *plan, plan_shader shader);
 
-enum { LIST_NODE = 16 };    /* bytes of a node of the per-pixel lists */
-enum { RESOLVE_GROUP = 8 }; /* invocations a group of the resolve pass */
+enum { LIST_NODE = 16, TILE_ENTRY = 4 }; /* bytes of a node of the per-pixel lists, of an entry of a tile's */
+enum { RESOLVE_GROUP = 8 };              /* invocations a group of the resolve pass */
 
 #endif

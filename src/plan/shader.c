@@ -11,7 +11,7 @@ typedef struct shader_part {
 enum {
     READS_BALL = FEATURE_KERNEL | FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_FAR,
     READS_RAY = READS_BALL | FEATURE_SOLVER | FEATURE_EYE_INSIDE | FEATURE_HOST | FEATURE_COLORS |
-                FEATURE_LABELS | FEATURE_TEXELS,
+                FEATURE_LABELS | FEATURE_TEXELS | FEATURE_TILES,
     READS_BILLBOARD = FEATURE_RADII | FEATURE_FAR | FEATURE_CLIP_ZERO,
 };
 
@@ -70,6 +70,7 @@ static void add_features(char *defines, uint64_t f)
         {FEATURE_SPECULAR, "SPECULAR"},
         {FEATURE_CLIP_ZERO, "CLIP_ZERO_TO_ONE"},
         {FEATURE_TEXELS, "BALL_TEXELS"},
+        {FEATURE_TILES, "TILES"},
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (f & names[i].bit) add(defines, names[i].name, 1);
@@ -125,6 +126,7 @@ bool plan_needs(const mns_plan *plan, plan_shader shader)
 {
     uint64_t f = plan->features;
     if (f & FEATURE_REFERENCE) return shader == SHADER_SHADE;
+    if (f & FEATURE_TILES && shader < SHADER_SHUFFLE) return false;
     switch (shader) {
     case SHADER_CORE_QUADS:
         return f & FEATURE_CORE && f & FEATURE_QUADS;

@@ -8,7 +8,7 @@
 /* Features that change which balls are sent, how they are ordered and what is sent of each. */
 #define BALL_FEATURES                                                                                        \
     (FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_CORE_RADII | FEATURE_POINTS | FEATURE_QUADS | FEATURE_FAR | \
-     FEATURE_COLORS | FEATURE_LABELS)
+     FEATURE_COLORS | FEATURE_LABELS | FEATURE_TILES)
 
 static bool same_balls(const draw *d)
 {
@@ -90,10 +90,11 @@ mns_status draw_balls_upload(draw *d, mns_error *error)
     list_passes *p = &d->r->passes;
     if (same_balls(d)) return MNS_OK;
     d->r->last = (render_last){0};
+    d->r->binned = false;
     mns_status status = list_order_make(&d->r->order, d->field, d->plan, error);
     draw_mark(d, MNS_PHASE_SORT);
     if (!status) status = upload(d, &p->balls, "balls", d->plan->ball_floats, 0, error);
-    if (!status) status = count_backwards(d, error);
+    if (!status && d->plan->features & FEATURE_POINTS) status = count_backwards(d, error);
     if (!status && d->plan->features & FEATURE_CORE_RADII)
         status = upload(d, &p->cores, "core radii", 1, 2, error);
     if (!status && d->plan->features & FEATURE_COLORS) status = upload(d, &p->colors, "colours", 1, 3, error);

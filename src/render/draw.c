@@ -119,6 +119,7 @@ static mns_status cast(draw *d, list_region region, list_counts *counts, mns_err
 {
     /* GL promises no order of fragments, and a cast sees only as much of a list as it reads. */
     bool ordered = d->plan->limits.is_software && !(d->plan->features & FEATURE_SHUFFLE) && !d->r->disordered;
+    ordered = ordered || d->plan->features & FEATURE_TILES; /* these come from the CPU */
     mns_status status = ordered ? MNS_OK : sort_lists(d, region, error);
     if (status) return status;
     list_cast(&d->r->passes, &d->r->device, d->plan, d->program, d->frame->planes_target, region, counts);
@@ -130,35 +131,18 @@ static mns_status cast(draw *d, list_region region, list_counts *counts, mns_err
     return MNS_OK;
 }
 
-/* Gathers and casts a region of the frame. */
+/* Makes and casts the lists of a region of the frame. */
 static mns_status draw_region(draw *d, list_region region, mns_error *error)
 {
-    gl_device *device = &d->r->device;
-    list_passes *p = &d->r->passes;
-    const mns_plan *plan = d->plan;
-    if ((size_t)region.width * (size_t)region.height > p->redo_capacity) return draw_halves(d, region, error);
-    size_t nodes = list_gather(p, device, plan, &d->r->order, d->program, region);
-    if (nodes > p->node_capacity) {
-        if (nodes > plan->pool_most) return draw_halves(d, region, error);
-        d->stats->fallbacks.pool_grown++;
-        mns_status status = gl_buffer_reserve(device, &p->nodes, "node pool", nodes * LIST_NODE,
-                                              plan->pool_most * LIST_NODE, error);
-        if (status) return status;
-        p->node_capacity =
-            p->nodes.size / LIST_NODE < plan->pool_most ? p->nodes.size / LIST_NODE : plan->pool_most;
-        nodes = list_gather(p, device, plan, &d->r->order, d->program, region);
-    }
-    draw_mark(d, MNS_PHASE_GATHER);
+    size_t pixels = (size_t)region.width * (size_t)region.height;
+    if (pixels > d->r->passes.redo_capacity) return draw_halves(d, region, error);
+    bool fits;
+    mns_status status = draw_lists(d, region, &fits, error);
+    if (status) return status;
+    if (!fits) return draw_halves(d, region, error);
     d->stats->tiles++;
-    d->stats->list_nodes += nodes - 1;
-    if (plan->options.measure) {
-        if (!list_lengths_add(&d->lengths, p, device, region, nodes))
-            return status_no_memory(error, "while measuring the lists");
-        draw_pause(d);
-    }
-    if (plan->features & FEATURE_SHUFFLE) list_shuffle(p, device, plan, d->program, region);
     list_counts counts;
-    mns_status status = cast(d, region, &counts, error);
+    status = cast(d, region, &counts, error);
     if (!status && counts.redo) status = resolve(d, &counts, error);
     draw_mark(d, MNS_PHASE_CAST);
     draw_counts_add(d->stats, &counts);
@@ -172,7 +156,7 @@ static mns_status draw_sample(draw *d, const double jitter[2], mns_error *error)
     if (plan->features & FEATURE_REFERENCE) return draw_reference_sample(d, jitter, error);
     list_region whole = {0, 0, plan->frame.width, plan->frame.height};
     set_view(d, jitter);
-    if (plan->features & (FEATURE_CORE | FEATURE_HOST)) {
+    if (plan->features & (FEATURE_CORE | FEATURE_HOST) && !(plan->features & FEATURE_TILES)) {
         list_core_depth(&d->r->passes, &d->r->device, plan, &d->r->order, d->program, whole);
         draw_mark(d, MNS_PHASE_CORE_DEPTH);
     }

@@ -46,6 +46,10 @@ mns_status draw_reference_begin(draw *d, mns_error *error);
 mns_status draw_reference_sample(draw *d, const double jitter[2], mns_error *error);
 void draw_reference_end(draw *d);
 
+/* lists.c: gives every pixel of a region its list. *fits: false where they pass what the driver's blocks
+ * hold. Errors: MEMORY, GL. */
+mns_status draw_lists(draw *d, list_region region, bool *fits, mns_error *error);
+
 /* figures.c */
 void draw_stats_start(draw *d);
 void draw_counts_add(mns_stats *stats, const list_counts *counts);

@@ -3,6 +3,7 @@
 #define MNS_RENDER_RENDER_H
 
 #include "list/passes.h"
+#include "tile/tile.h"
 
 /* What the sorted and uploaded balls were made from: the same again, and nothing is sorted or uploaded. */
 typedef struct render_last {
@@ -21,6 +22,8 @@ struct mns_renderer {
     gl_programs programs;
     list_passes passes;
     list_order order;
+    tile_bins bins;
+    bool binned; /* the bins are of the balls that are uploaded */
     gl_buffer shade;
     render_last last;
     bool disordered; /* lists have come out of order on this driver: sort them before they are cast */

@@ -1,0 +1,111 @@
+/* Every pixel's list: gathered by the rasteriser, or its tile's, binned on the CPU. */
+#include "base/status.h"
+#include "render/draw.h"
+
+/* ---- Gathered
+ * ----------------------------------------------------------------------------------------------------------
+ */
+
+static mns_status grow_pool(draw *d, size_t nodes, mns_error *error)
+{
+    list_passes *p = &d->r->passes;
+    size_t most = d->plan->pool_most;
+    d->stats->fallbacks.pool_grown++;
+    mns_status status =
+        gl_buffer_reserve(&d->r->device, &p->nodes, "node pool", nodes * LIST_NODE, most * LIST_NODE, error);
+    if (!status) p->node_capacity = p->nodes.size / LIST_NODE < most ? p->nodes.size / LIST_NODE : most;
+    return status;
+}
+
+static mns_status gather(draw *d, list_region region, bool *fits, mns_error *error)
+{
+    list_passes *p = &d->r->passes;
+    gl_device *device = &d->r->device;
+    size_t nodes = list_gather(p, device, d->plan, &d->r->order, d->program, region);
+    *fits = nodes <= d->plan->pool_most;
+    if (!*fits) return MNS_OK;
+    if (nodes > p->node_capacity) {
+        mns_status status = grow_pool(d, nodes, error);
+        if (status) return status;
+        nodes = list_gather(p, device, d->plan, &d->r->order, d->program, region);
+    }
+    draw_mark(d, MNS_PHASE_GATHER);
+    d->stats->list_nodes += nodes - 1;
+    if (d->plan->options.measure) {
+        if (!list_lengths_add(&d->lengths, p, device, region, nodes))
+            return status_no_memory(error, "while measuring the lists");
+        draw_pause(d);
+    }
+    if (d->plan->features & FEATURE_SHUFFLE) list_shuffle(p, device, d->plan, d->program, region);
+    return MNS_OK;
+}
+
+/* ---- Tiles
+ * ----------------------------------------------------------------------------------------------------------
+ */
+
+static mns_status map(draw *d, gl_buffer *buffer, const char *what, size_t count, uint32_t **data,
+                      mns_error *error)
+{
+    size_t size = count * sizeof **data;
+    mns_status status =
+        gl_buffer_reserve(&d->r->device, buffer, what, size, d->plan->limits.max_storage_block, error);
+    return status ? status : gl_buffer_map(&d->r->device, buffer, size, (void **)data, error);
+}
+
+static mns_status upload_tiles(draw *d, mns_error *error)
+{
+    list_passes *p = &d->r->passes;
+    const tile_bins *bins = &d->r->bins;
+    bool kept;
+    do {
+        uint32_t *entry, *head;
+        mns_status status = map(d, &p->entries, "tiles' lists", bins->count + 1, &entry, error);
+        if (status) return status;
+        status = map(d, &p->tile_heads, "tiles", (size_t)bins->across * (size_t)bins->down, &head, error);
+        if (!status) tile_bins_write(bins, entry, head);
+        kept = gl_buffer_unmap(&d->r->device, &p->entries);
+        if (status) return status;
+        kept = gl_buffer_unmap(&d->r->device, &p->tile_heads) && kept;
+    } while (!kept);
+    const int grid[4] = {bins->region.x, bins->region.y, bins->across, bins->shift};
+    for (int i = 0; i < 4; i++) p->tile_grid[i] = grid[i];
+    return MNS_OK;
+}
+
+static bool same_region(list_region a, list_region b)
+{
+    return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
+}
+
+static mns_status bin(draw *d, list_region region, bool *fits, mns_error *error)
+{
+    mns_renderer *r = d->r;
+    tile_bins *bins = &r->bins;
+    *fits = true;
+    mns_status status = MNS_OK;
+    if (!r->binned) status = tile_outlines_make(bins, &r->order, d->field, d->plan, error);
+    if (status) return status;
+    if (!r->binned || !same_region(bins->region, region)) {
+        r->binned = true; /* the outlines; the region tells of the lists */
+        status = tile_bins_make(bins, &r->order, region, error);
+        *fits = !status && bins->count < d->plan->pool_most;
+        draw_mark(d, MNS_PHASE_BIN);
+        if (*fits) status = upload_tiles(d, error);
+        if (status || !*fits) bins->region = (list_region){0};
+        draw_mark(d, MNS_PHASE_UPLOAD);
+    }
+    if (status || !*fits) return status;
+    d->stats->list_nodes += bins->count;
+    if (d->plan->options.measure) {
+        if (!tile_bins_lengths(bins, &d->lengths))
+            return status_no_memory(error, "while measuring the lists");
+        draw_pause(d);
+    }
+    return MNS_OK;
+}
+
+mns_status draw_lists(draw *d, list_region region, bool *fits, mns_error *error)
+{
+    return d->plan->features & FEATURE_TILES ? bin(d, region, fits, error) : gather(d, region, fits, error);
+}

@@ -1,0 +1,59 @@
+/* Lists a tile of pixels long, binned in order on the CPU: what a software rasteriser wants instead of a
+ * billboard a ball.
+ *
+ * Balls are taken nearest first. Each tile keeps a mask of the cells that cores have hidden so far; a ball
+ * goes to the tiles in which its outline meets a cell that is still open, so that lists end soon after the
+ * first closed layer of cores.
+ */
+#ifndef MNS_TILE_TILE_H
+#define MNS_TILE_TILE_H
+
+#include "list/lengths.h"
+#include "tile/outline.h"
+
+/* An entry of a tile's list is a ball's place in the order; the last of a tile carries this bit. */
+#define TILE_LAST 0x80000000u
+
+typedef struct tile_pair {
+    uint32_t tile, ball;
+} tile_pair;
+
+/* Rows of tiles that one thread bins at a time. */
+typedef struct tile_band {
+    int first, past;               /* rows */
+    tile_pair *pair;               /* in the order of the balls */
+    size_t count, capacity, begin; /* begin: of the band's entries in the lists */
+    bool failed;                   /* out of memory */
+} tile_band;
+
+typedef struct tile_bins {
+    list_region region;
+    int shift;             /* a tile is 1 << shift pixels wide and high */
+    int across, down;      /* tiles */
+    size_t count;          /* entries of all lists */
+    tile_outline *outline; /* of the order's balls */
+    uint16_t *rows;        /* first and last pixel row of each */
+    tile_core *core;
+    uint64_t *key, *scratch; /* of the cores, by depth */
+    uint32_t *digits;
+    size_t core_count, ball_capacity;
+    uint64_t *mask;   /* a tile */
+    uint32_t *length; /* a tile */
+    size_t tile_capacity;
+    tile_band *band;
+    int band_count, band_capacity;
+} tile_bins;
+
+/* Outlines and cores of the order's balls, once a frame. Errors: MEMORY. */
+mns_status tile_outlines_make(tile_bins *bins, const list_order *order, const mns_field *field,
+                              const mns_plan *plan, mns_error *error);
+/* Bins them over a region of the frame. Errors: MEMORY. */
+mns_status tile_bins_make(tile_bins *bins, const list_order *order, list_region region, mns_error *error);
+/* Writes the lists: entry[0] is no list's, bins->count follow; head[t] is where tile t's list begins, 0 for
+ * none. */
+void tile_bins_write(const tile_bins *bins, uint32_t *entry, uint32_t *head);
+/* Notes every pixel's list's length. False: out of memory. */
+bool tile_bins_lengths(const tile_bins *bins, list_lengths *lengths);
+void tile_bins_free(tile_bins *bins);
+
+#endif
