@@ -283,6 +283,9 @@ MNS_API uint64_t mns_plan_features(const mns_plan *plan);
 /* Passes in order ("core_depth", "gather", ...); *count of them. */
 MNS_API const char *const *mns_plan_passes(const mns_plan *plan, size_t *count);
 MNS_API const mns_left_out *mns_plan_left_out(const mns_plan *plan, size_t *count);
+/* What of the input lies outside the stated domain (docs/domain.md), a line a limit: it is drawn all the same,
+ * but without the promises of the exact solver. *count of them, 0 for most inputs. */
+MNS_API const char *const *mns_plan_warnings(const mns_plan *plan, size_t *count);
 /* The whole plan as text of several lines, as --explain prints it. Lives as long as the plan. */
 MNS_API const char *mns_plan_text(const mns_plan *plan);
 

@@ -39,6 +39,13 @@ void app_note(const char *format, ...)
     fprintf(stderr, "meniscus: note: %s\n", text);
 }
 
+void app_note_warnings(const mns_plan *plan)
+{
+    size_t count;
+    const char *const *lines = mns_plan_warnings(plan, &count);
+    for (size_t i = 0; i < count; i++) app_note("outside the stated domain: %s", lines[i]);
+}
+
 double app_clock_ms(void)
 {
     struct timespec now;

@@ -17,6 +17,9 @@ int app_report(const mns_error *error);
 /* One line on standard error that is no error: "meniscus: note: ...". */
 void app_note(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* A note for each limit of the stated domain that the plan's input breaks. */
+void app_note_warnings(const mns_plan *plan);
+
 /* Monotonic milliseconds. */
 double app_clock_ms(void);
 

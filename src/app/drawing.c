@@ -19,6 +19,16 @@ static mns_status resolve_view(const app_options *o, drawing *d, size_t frame, m
     return status;
 }
 
+/* A plan that cannot be made is told of when the frame is drawn. */
+static void note_domain(const drawing *d)
+{
+    mns_plan *plan;
+    if (mns_plan_create(d->field, &d->view, NULL, NULL, mns_renderer_limits(d->renderer), &plan, NULL))
+        return;
+    app_note_warnings(plan);
+    mns_plan_destroy(plan);
+}
+
 mns_status drawing_open(const app_options *o, drawing *d, mns_error *error)
 {
     memset(d, 0, sizeof *d);
@@ -39,6 +49,7 @@ mns_status drawing_open(const app_options *o, drawing *d, mns_error *error)
     status = resolve_view(o, d, frame, error);
     if (!status) status = mns_context_create(o->backend, &d->context, error);
     if (!status) status = mns_renderer_create(mns_context_get_proc(d->context), &d->renderer, error);
+    if (!status) note_domain(d);
     return status;
 }
 

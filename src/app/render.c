@@ -248,11 +248,26 @@ static mns_status print_frame(render_job *job, const render_frame *f, mns_error 
     return MNS_OK;
 }
 
+/* Where the input lies outside the stated domain; how many balls a ray meets is known only where it was
+ * counted. */
+static void note_domain(const mns_frame *frame)
+{
+    const uint64_t most_active = 10000;
+    const mns_stats *stats = mns_frame_stats(frame);
+    app_note_warnings(mns_frame_plan(frame));
+    if (stats->timed && stats->list_max > most_active)
+        app_note(
+            "a ray meets %llu balls: if more than %llu of them are around one point, it lies outside the "
+            "stated domain (docs/domain.md)",
+            (unsigned long long)stats->list_max, (unsigned long long)most_active);
+}
+
 static mns_status render_one(render_job *job, long index, mns_error *error)
 {
     render_frame f = {.index = index};
     mns_status status = load(job, index, &f.field, &f.load_ms, error);
     if (!status) status = draw(job, &f, error);
+    if (!status && index == job->first) note_domain(job->frame);
     if (!status) status = save(job, &f, error);
     if (!status) status = keep_stats(job, &f, error);
     if (!status) status = print_frame(job, &f, error);

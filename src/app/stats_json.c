@@ -105,6 +105,15 @@ static json_t *left_out(const mns_plan *plan)
     return list;
 }
 
+static json_t *warnings(const mns_plan *plan)
+{
+    size_t n = 0;
+    const char *const *lines = plan ? mns_plan_warnings(plan, &n) : NULL;
+    json_t *list = json_array();
+    for (size_t i = 0; i < n; i++) json_array_append_new(list, json_string(lines[i]));
+    return list;
+}
+
 /* The legend of the colour map; null where the surface has one colour. The name may come from a file in any
  * encoding. */
 static json_t *legend(const mns_stats *s)
@@ -152,6 +161,7 @@ json_t *stats_json_frame(const stats_frame *frame)
                                   "max", count(s->list_max)));
     json_object_set_new(object, "memory", json_pack("{s:I}", "peak_rss_bytes", peak_memory()));
     json_object_set_new(object, "left_out", left_out(frame->plan));
+    json_object_set_new(object, "warnings", warnings(frame->plan));
     json_object_set_new(object, "fallbacks", fallbacks(s));
     json_object_set_new(object, "color", legend(s));
     return object;

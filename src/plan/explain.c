@@ -36,6 +36,8 @@ static void print_plan(FILE *out, const mns_plan *plan, const mns_field *field)
         if (plan->features >> bit & 1 && feature_names[bit]) fprintf(out, " %s", feature_names[bit]);
     fprintf(out, "\npasses:");
     for (size_t i = 0; i < plan->pass_count; i++) fprintf(out, " %s", plan->pass[i]);
+    if (plan->domain.count) fprintf(out, "\nwarnings, outside the stated domain:");
+    for (size_t i = 0; i < plan->domain.count; i++) fprintf(out, "\n  %s", plan->domain.line[i]);
     fprintf(out, "\nleft out:\n");
     for (size_t i = 0; i < plan->left_out_count; i++)
         fprintf(out, "  %s: %s\n", plan->left_out[i].part, plan->left_out[i].reason);

@@ -325,6 +325,7 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
     resolve_options(options, plan);
     plan->features = (uint64_t)field->kernel | (uint64_t)plan->options.solver << 3;
     plan_facts_of(field, &plan->frame, &plan->facts);
+    domain_check(field, plan->facts.eye_distance, plan->facts.farthest, &plan->domain);
     status = plan_look(look, field, plan, error);
     if (!status) status = check_size(plan, error);
     if (!status)
@@ -371,6 +372,12 @@ const mns_left_out *mns_plan_left_out(const mns_plan *plan, size_t *count)
 {
     *count = plan->left_out_count;
     return plan->left_out;
+}
+
+const char *const *mns_plan_warnings(const mns_plan *plan, size_t *count)
+{
+    *count = plan->domain.count;
+    return plan->domain.line;
 }
 
 const char *mns_plan_text(const mns_plan *plan)

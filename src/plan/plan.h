@@ -4,6 +4,7 @@
 #define MNS_PLAN_PLAN_H
 
 #include "field/field.h"
+#include "plan/domain.h"
 #include "scene/view.h"
 
 /* One bit a capability; kernel and solver are numbers in the lowest bits. */
@@ -75,6 +76,7 @@ struct mns_plan {
     size_t pool_most;   /* allowed */
     const char *method_reason;
     char color_by[64];
+    domain_report domain; /* what of the input lies outside the stated domain */
     char *text;
 };
 
