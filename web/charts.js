@@ -82,12 +82,14 @@
         return `10${exponent < 0 ? '⁻' : ''}${digits}`;
     }
 
-    /* Powers of ten; 2 and 5 times them too where the axis is short. An axis has its ends among its ticks. */
+    /* Powers of ten; 2 and 5 times them too where the axis is short, and all digits where it is shorter than a decade. An
+     * axis has its ends among its ticks, which are no such numbers. */
     function tickText(value, decades) {
         const exponent = Math.floor(Math.log10(value) + 1e-9), digit = value / 10 ** exponent;
         const is = (wanted) => Math.abs(digit - wanted) < 1e-6;
         if (is(1)) return powerOfTen(exponent);
-        return decades < 2 && (is(2) || is(5)) ? page.number(value) : '';
+        const shown = decades < 1 ? [1.5, 2, 3, 4, 5, 6, 7, 8, 9] : decades < 2 ? [2, 5] : [];
+        return shown.some(is) ? page.number(value) : '';
     }
 
     function logAxis(title, range, more, zero) {

@@ -92,12 +92,13 @@
         stage.addEventListener('pointermove', (event) => {
             const at = ratio(event, stage.getBoundingClientRect());
             tell(at);
+            if (!event.buttons) drag = null; // let go where the stage did not hear of it
             if (drag?.moves === 'divider') setSplit(100 * at[0]);
             if (drag?.moves !== 'picture') return;
             state.center = drag.center.map((center, axis) => center - (at[axis] - drag.from[axis]) / state.zoom);
             place();
         });
-        for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) stage.addEventListener(end, () => { drag = null; });
+        for (const end of ['pointerup', 'pointercancel']) stage.addEventListener(end, () => { drag = null; });
         stage.addEventListener('pointerleave', () => tell(null));
     }
 

@@ -10,8 +10,9 @@
 #include <unistd.h>
 
 /* In a script element the parser looks for "</script" and "<!--"; in JSON a '<' stands in strings alone,
- * where it may be written as an escape. Non-ASCII text is escaped by jansson. */
-enum { JSON_FLAGS = JSON_COMPACT | JSON_ENSURE_ASCII | JSON_ENCODE_ANY };
+ * where it may be written as an escape. Non-ASCII text is escaped by jansson. The digits are those of
+ * results.json. */
+#define JSON_FLAGS (JSON_COMPACT | JSON_ENSURE_ASCII | JSON_ENCODE_ANY | JSON_REAL_PRECISION(9))
 
 typedef struct page_writer {
     FILE *file;

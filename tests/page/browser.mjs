@@ -116,11 +116,17 @@ class Tab {
         return result.value;
     }
 
+    /* Until what was changed has been drawn: before, the mouse may still meet what stood there. */
+    settle() {
+        return this.run(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 0)))));
+    }
+
     /* Where the middle of an element stands in the window, scrolled into it, and its size. */
-    box(selector) {
+    async box(selector) {
+        await this.run((wanted) => document.querySelector(wanted).scrollIntoView({ block: 'center' }), selector);
+        await this.settle();
         return this.run((wanted) => {
             const element = document.querySelector(wanted);
-            element.scrollIntoView({ block: 'center' });
             const { left, top, width, height } = element.getBoundingClientRect();
             return { left, top, width, height, x: left + width / 2, y: top + height / 2 };
         }, selector);

@@ -72,7 +72,7 @@ async function checkHover(tab) {
     });
     await tab.mouse('mouseMoved', box.left + at.x - 30, box.top + at.y, 0);
     await tab.mouse('mouseMoved', box.left + at.x, box.top + at.y, 0);
-    await tab.run(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    await tab.settle();
     const told = await tab.run(() => [meniscus.errorChart.tooltip.opacity, meniscus.errorChart.tooltip.title, meniscus.errorChart.tooltip.body.flatMap((part) => part.lines)]);
     assert.ok(told[0] > 0, 'the hover shows');
     assert.ok(told[1].includes(name), 'the hover names the run');
@@ -126,6 +126,7 @@ async function checkSlider(tab) {
     await tab.choose('#right', await tab.run(() => [...document.getElementById('right').options].at(-1).value));
     assert.notEqual(await shown(), before, 'the menu changes the right picture');
     await tab.choose('#zoom', '4');
+    await tab.settle();
     box = await tab.box('#stage');
     const center = () => tab.run(() => meniscus.sliderState.center);
     await tab.drag({ x: box.left + 0.5 * box.width, y: box.y }, { x: box.left + 0.3 * box.width, y: box.y });

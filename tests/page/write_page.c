@@ -11,7 +11,7 @@ static int write_all(const json_t *results, json_t *suite, const picture_list *l
     char path[4096];
     mns_error error = {0};
     snprintf(path, sizeof path, "%s/results.json", folder);
-    if (json_dump_file(results, path, 0)) return perror(path), 1;
+    if (json_dump_file(results, path, JSON_REAL_PRECISION(9))) return perror(path), 1;
     snprintf(path, sizeof path, "%s/index.html", folder);
     mns_status status = page_write(results, list->picture, list->count, path, &error);
     snprintf(path, sizeof path, "%s/suite.html", folder);
