@@ -87,15 +87,21 @@ static void describe_values(const known_key *key, char *text, size_t size)
         snprintf(text, size, "%s or %s", key->names[0], key->names[1]);
 }
 
+/* Appends what fits. */
+static void append(char text[RUN_KNOWN_SIZE], const char *before, const char *word, const char *behind)
+{
+    size_t used = strlen(text);
+    snprintf(text + used, RUN_KNOWN_SIZE - used, "%s%s%s", before, word, behind);
+}
+
 void run_known(char text[RUN_KNOWN_SIZE])
 {
-    size_t used = 0;
-    for (size_t i = 0; i < METHOD_COUNT; i++)
-        used += (size_t)snprintf(text + used, RUN_KNOWN_SIZE - used, "%s%s:%s", i ? ", " : "",
-                                 METHODS[i].method, METHODS[i].solver);
-    for (size_t i = 0; i < KEY_COUNT; i++)
-        used +=
-            (size_t)snprintf(text + used, RUN_KNOWN_SIZE - used, "%s%s", i ? ", " : "; keys: ", KEYS[i].key);
+    text[0] = '\0';
+    for (size_t i = 0; i < METHOD_COUNT; i++) {
+        append(text, i ? ", " : "", METHODS[i].method, ":");
+        append(text, "", METHODS[i].solver, "");
+    }
+    for (size_t i = 0; i < KEY_COUNT; i++) append(text, i ? ", " : "; keys: ", KEYS[i].key, "");
 }
 
 /* ---- Reading --runs

@@ -4,7 +4,7 @@
 
 #include "compare/metrics.h"
 
-enum { RUN_NAME_SIZE = 96, RUN_KNOWN_SIZE = 320, RUN_SETTINGS = 8, RUN_FRAMES_LEAST = 5 };
+enum { RUN_NAME_SIZE = 96, RUN_KNOWN_SIZE = 400, RUN_SETTINGS = 8, RUN_FRAMES_LEAST = 5 };
 
 typedef struct run_setting {
     const char *key; /* a literal */
