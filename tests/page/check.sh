@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Writes the made-up page and has it looked at by headless Chromium: check.sh WRITE_PAGE FOLDER CHART_JS. 77: no browser.
+# Has headless Chromium look at the made-up page and at one that the program writes, whose chart is held against its
+# results.csv: check.sh WRITE_PAGE MENISCUS FOLDER CHART_JS. 77: no browser.
 set -euo pipefail
 here=$(dirname "$(realpath "$0")")
-write=$1 folder=$2 chart=$3
+write=$1 meniscus=$2 folder=$3 chart=$4
 
 for name in NODE CHROMIUM; do
     program=${!name-}
@@ -15,4 +16,7 @@ mkdir -p "$folder"
 "$write" "$folder"
 charts=with
 [[ -s $chart ]] || charts=without
-exec "$NODE" "$here/check.mjs" "$CHROMIUM" "$folder" "$charts"
+"$NODE" "$here/check.mjs" "$CHROMIUM" "$folder" "$charts"
+
+XDG_CACHE_HOME=$folder/cache "$meniscus" compare scattered:300 --size 96x72 -o "$folder/real"
+"$NODE" "$here/check.mjs" "$CHROMIUM" "$folder/real" "$charts"
