@@ -2,6 +2,7 @@
  * fields of four kinds; and rays that are hard by construction. */
 #include "field/field.h"
 #include "support/brute.h"
+#include "support/reference_fixture.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -14,98 +15,25 @@
 #include <cmocka.h>
 
 typedef enum crowd { SCATTERED, DENSE, MIXED, COINCIDENT, CROWDS } crowd;
-enum { BALLS = 60, RAYS = 150 };
-
-typedef struct random_numbers {
-    uint64_t state;
-} random_numbers;
-
-static double random_next(random_numbers *r) /* in [0, 1); Marsaglia's xorshift */
-{
-    r->state ^= r->state << 13;
-    r->state ^= r->state >> 7;
-    r->state ^= r->state << 17;
-    return (double)(r->state >> 11) * 0x1p-53;
-}
-
-/* Balls as arrays, as a host has them. */
-typedef struct balls {
-    double position[BALLS * 3], radius[BALLS], strength[BALLS];
-    size_t count;
-} balls;
-
-static void balls_add(balls *b, double x, double y, double z, double radius, double strength)
-{
-    double *p = b->position + 3 * b->count;
-    p[0] = x, p[1] = y, p[2] = z;
-    b->radius[b->count] = radius;
-    b->strength[b->count++] = strength;
-}
-
-static mns_field *field_of(const balls *b, mns_kernel kernel, double iso)
-{
-    mns_error error;
-    mns_field *field = NULL;
-    mns_field_desc desc = {.count = b->count,
-                           .position = {.data = b->position},
-                           .radius = {.data = b->radius},
-                           .strength = {.data = b->strength},
-                           .kernel = kernel,
-                           .iso = iso};
-    if (mns_field_create(&desc, &field, &error)) fail_msg("%s", error.text);
-    return field;
-}
-
-static mns_reference *reference_of(const mns_field *field)
-{
-    mns_error error;
-    mns_reference *reference = NULL;
-    if (mns_reference_create(field, &reference, &error)) fail_msg("%s", error.text);
-    return reference;
-}
-
-static mns_hit trace(const mns_reference *reference, const double from[3], const double direction[3])
-{
-    mns_error error;
-    mns_hit hit;
-    if (mns_reference_trace(reference, from, direction, &hit, &error)) fail_msg("%s", error.text);
-    return hit;
-}
-
-/* One ray through one field, made and destroyed. */
-static mns_hit trace_once(const balls *b, mns_kernel kernel, double iso, const double from[3],
-                          const double direction[3])
-{
-    mns_field *field = field_of(b, kernel, iso);
-    mns_reference *reference = reference_of(field);
-    mns_hit hit = trace(reference, from, direction);
-    mns_reference_destroy(reference);
-    mns_field_destroy(field);
-    return hit;
-}
+enum { RAYS = 150 };
 
 #define V(...) ((const double[3]){__VA_ARGS__})
 
-static void assert_close(double a, double b, double tolerance)
-{
-    if (!(fabs(a - b) <= tolerance)) fail_msg("%.17g is not %.17g within %.3g", a, b, tolerance);
-}
-
-static void crowd_make(balls *b, crowd kind, bool mixed_signs, random_numbers *r)
+static void crowd_make(fixture_balls *b, crowd kind, bool mixed_signs, fixture_numbers *r)
 {
     b->count = 0;
-    for (int i = 0; i < BALLS; i++) {
+    for (int i = 0; i < FIXTURE_BALLS; i++) {
         double p[3], radius = 0.2, q = 1;
-        for (int a = 0; a < 3; a++) p[a] = random_next(r);
+        for (int a = 0; a < 3; a++) p[a] = fixture_random(r);
         if (kind == DENSE) radius = 0.6;
-        if (kind == MIXED) radius = 0.5 * pow(100, -random_next(r));
+        if (kind == MIXED) radius = 0.5 * pow(100, -fixture_random(r));
         if (kind == COINCIDENT) { /* five places, each taken by twelve balls or nearly so */
             for (int a = 0; a < 3; a++)
-                p[a] = 0.1 + 0.2 * ((i * (a + 2)) % 5) + (i % 2 ? 1e-9 * random_next(r) : 0);
+                p[a] = 0.1 + 0.2 * ((i * (a + 2)) % 5) + (i % 2 ? 1e-9 * fixture_random(r) : 0);
             radius = i % 3 ? 0.2 : 0.21;
         }
-        if (mixed_signs) q = (random_next(r) < 0.35 ? -1 : 1) * (0.2 + 1.5 * random_next(r));
-        balls_add(b, p[0], p[1], p[2], radius, q);
+        if (mixed_signs) q = (fixture_random(r) < 0.35 ? -1 : 1) * (0.2 + 1.5 * fixture_random(r));
+        fixture_add(b, p[0], p[1], p[2], radius, q);
     }
 }
 
@@ -117,7 +45,7 @@ typedef struct tally {
 static void compare_ray(const mns_reference *reference, const brute *oracle, const double from[3],
                         const double direction[3], const char *what, tally *count)
 {
-    mns_hit hit = trace(reference, from, direction);
+    mns_hit hit = fixture_trace(reference, from, direction);
     brute_ray ray;
     brute_limits limits = {.tau = 0x1p-40, .reference = {from[0], from[1], from[2]}};
     long double length = 0;
@@ -149,24 +77,24 @@ static void agreesWithTheOracle(void **state)
 {
     (void)state;
     static const char *const crowds[] = {"scattered", "dense", "mixed", "coincident"};
-    random_numbers r = {0x9e3779b97f4a7c15};
+    fixture_numbers r = {0x9e3779b97f4a7c15};
     tally all = {0, 0, 0};
     for (mns_kernel kernel = MNS_KERNEL_POLY2; kernel < MNS_KERNEL_COUNT; kernel++)
         for (int scene = 0; scene < 2 * CROWDS; scene++) {
-            balls b;
+            fixture_balls b;
             char what[80];
             crowd_make(&b, (crowd)(scene / 2), scene % 2, &r);
             snprintf(what, sizeof what, "%s, %s, %s strengths", mns_kernel_name(kernel), crowds[scene / 2],
                      scene % 2 ? "mixed" : "equal");
-            mns_field *field = field_of(&b, kernel, 0.2);
-            mns_reference *reference = reference_of(field);
+            mns_field *field = fixture_field(&b, kernel, 0.2);
+            mns_reference *reference = fixture_reference(field);
             brute *oracle = brute_create(field);
             assert_non_null(oracle);
             for (int i = 0; i < RAYS; i++) {
                 double from[3], way[3], out = i % 4 ? 3 : 1; /* every fourth eye is among the balls */
                 for (int a = 0; a < 3; a++) {
-                    from[a] = 0.5 + out * (random_next(&r) - 0.5);
-                    way[a] = random_next(&r) - from[a];
+                    from[a] = 0.5 + out * (fixture_random(&r) - 0.5);
+                    way[a] = fixture_random(&r) - from[a];
                 }
                 compare_ray(reference, oracle, from, way, what, &all);
             }
@@ -184,10 +112,10 @@ static void agreesWithTheOracle(void **state)
 /* 9/16 = (1 - 1/4)^2: with poly2 a lone unit ball's surface lies at 1/2 from its centre, in doubles too. */
 static const double NINE_16 = 0.5625;
 
-static balls one_ball(double x, double y, double z, double radius)
+static fixture_balls one_ball(double x, double y, double z, double radius)
 {
-    balls b = {.count = 0};
-    balls_add(&b, x, y, z, radius, 1);
+    fixture_balls b = {.count = 0};
+    fixture_add(&b, x, y, z, radius, 1);
     return b;
 }
 
@@ -195,7 +123,7 @@ static void assert_certain_hit(mns_hit hit, double t, double tolerance)
 {
     assert_true(hit.hit);
     assert_true(hit.certain);
-    assert_close(hit.t, t, tolerance + hit.t_error);
+    fixture_expect_close(hit.t, t, tolerance + hit.t_error);
 }
 
 static void assert_certain_miss(mns_hit hit)
@@ -215,8 +143,8 @@ static void anEmptyFieldIsMissed(void **state)
     double gradient[3] = {1, 1, 1};
     size_t ball = 0;
     assert_int_equal(mns_field_create(&desc, &field, &error), MNS_OK);
-    mns_reference *reference = reference_of(field);
-    assert_certain_miss(trace(reference, V(0, 0, 0), V(1, 0, 0)));
+    mns_reference *reference = fixture_reference(field);
+    assert_certain_miss(fixture_trace(reference, V(0, 0, 0), V(1, 0, 0)));
     assert_true(mns_reference_value(reference, V(0, 0, 0), gradient, &ball) == 0);
     assert_true(gradient[0] == 0 && gradient[1] == 0 && gradient[2] == 0);
     assert_true(ball == SIZE_MAX);
@@ -227,21 +155,21 @@ static void anEmptyFieldIsMissed(void **state)
 static void aLoneBallIsASphere(void **state)
 {
     (void)state;
-    balls b = one_ball(3, 0, 0, 1);
-    mns_hit hit = trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0, 0, 0), V(7, 0, 0));
+    fixture_balls b = one_ball(3, 0, 0, 1);
+    mns_hit hit = fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0, 0, 0), V(7, 0, 0));
     assert_certain_hit(hit, 2.5, 1e-15);
     assert_true(hit.t_error < 3e-14);
-    assert_close(hit.normal[0], -1, 1e-14);
+    fixture_expect_close(hit.normal[0], -1, 1e-14);
     assert_int_equal(hit.ball, 0);
-    assert_certain_miss(trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0, 0, 0), V(-1, 0, 0)));
-    assert_certain_miss(trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0, 0.51, 0), V(1, 0, 0)));
-    assert_certain_miss(trace_once(&b, MNS_KERNEL_POLY2, 1.5, V(0, 0, 0), V(1, 0, 0)));
+    assert_certain_miss(fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0, 0, 0), V(-1, 0, 0)));
+    assert_certain_miss(fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0, 0.51, 0), V(1, 0, 0)));
+    assert_certain_miss(fixture_trace_once(&b, MNS_KERNEL_POLY2, 1.5, V(0, 0, 0), V(1, 0, 0)));
 }
 
 static void aTangentRayIsNoCertainHit(void **state)
 {
     (void)state;
-    balls b = one_ball(3, 0, 0, 1);
+    fixture_balls b = one_ball(3, 0, 0, 1);
     for (mns_kernel k = MNS_KERNEL_POLY2; k < MNS_KERNEL_COUNT; k++) {
         long double unused, lo = 0, hi = 1;
         for (int i = 0; i < 100; i++) {
@@ -251,14 +179,14 @@ static void aTangentRayIsNoCertainHit(void **state)
             else
                 hi = v;
         }
-        mns_hit hit = trace_once(&b, k, 0.2, V(0, (double)hi, 0), V(1, 0, 0));
+        mns_hit hit = fixture_trace_once(&b, k, 0.2, V(0, (double)hi, 0), V(1, 0, 0));
         assert_false(hit.hit && hit.certain);
         /* A billionth of a radius to either side there is nothing to doubt. */
-        hit = trace_once(&b, k, 0.2, V(0, (double)hi - 1e-9, 0), V(1, 0, 0));
+        hit = fixture_trace_once(&b, k, 0.2, V(0, (double)hi - 1e-9, 0), V(1, 0, 0));
         assert_true(hit.hit && hit.certain);
-        assert_certain_miss(trace_once(&b, k, 0.2, V(0, (double)hi + 1e-9, 0), V(1, 0, 0)));
+        assert_certain_miss(fixture_trace_once(&b, k, 0.2, V(0, (double)hi + 1e-9, 0), V(1, 0, 0)));
     }
-    mns_hit exact = trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0, 0.5, 0), V(1, 0, 0));
+    mns_hit exact = fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0, 0.5, 0), V(1, 0, 0));
     assert_false(exact.hit && exact.certain);
 }
 
@@ -266,47 +194,52 @@ static void aTangentRayIsNoCertainHit(void **state)
 static void ballsThatJustTouchAreUndecidedAtTheNeckAlone(void **state)
 {
     (void)state;
-    balls b = one_ball(0, 0, 0, 1);
-    balls_add(&b, 1.5, 0, 0, 1, 1);
+    fixture_balls b = one_ball(0, 0, 0, 1);
+    fixture_add(&b, 1.5, 0, 0, 1, 1);
     const double saddle = 49.0 / 128;
-    mns_hit across = trace_once(&b, MNS_KERNEL_POLY2, saddle, V(0.75, -3, 0), V(0, 1, 0));
-    mns_hit along = trace_once(&b, MNS_KERNEL_POLY2, saddle, V(0, 0, 0), V(1, 0, 0));
+    mns_hit across = fixture_trace_once(&b, MNS_KERNEL_POLY2, saddle, V(0.75, -3, 0), V(0, 1, 0));
+    mns_hit along = fixture_trace_once(&b, MNS_KERNEL_POLY2, saddle, V(0, 0, 0), V(1, 0, 0));
     assert_false(across.certain && across.hit);
     assert_false(along.certain);
     /* L a billionth more: parted; less: joined. */
     double more = saddle * (1 + 1e-9), less = saddle * (1 - 1e-9);
-    assert_certain_miss(trace_once(&b, MNS_KERNEL_POLY2, more, V(0.75, -3, 0), V(0, 1, 0)));
-    across = trace_once(&b, MNS_KERNEL_POLY2, less, V(0.75, -3, 0), V(0, 1, 0));
+    assert_certain_miss(fixture_trace_once(&b, MNS_KERNEL_POLY2, more, V(0.75, -3, 0), V(0, 1, 0)));
+    across = fixture_trace_once(&b, MNS_KERNEL_POLY2, less, V(0.75, -3, 0), V(0, 1, 0));
     assert_true(across.hit && across.certain);
-    assert_close(across.t, 3, 1e-4);
-    along = trace_once(&b, MNS_KERNEL_POLY2, more, V(0, 0, 0), V(1, 0, 0));
+    fixture_expect_close(across.t, 3, 1e-4);
+    along = fixture_trace_once(&b, MNS_KERNEL_POLY2, more, V(0, 0, 0), V(1, 0, 0));
     assert_true(along.hit && along.certain && along.t < 0.75);
-    along = trace_once(&b, MNS_KERNEL_POLY2, less, V(0, 0, 0), V(1, 0, 0));
+    along = fixture_trace_once(&b, MNS_KERNEL_POLY2, less, V(0, 0, 0), V(1, 0, 0));
     assert_true(along.hit && along.certain && along.t > 1.5);
 }
 
 static void anEyeInsideSeesTheExit(void **state)
 {
     (void)state;
-    balls b = one_ball(1, 2, 3, 1);
-    assert_certain_hit(trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(1, 2, 3), V(0, 0, -2)), 0.5, 1e-15);
-    assert_certain_hit(trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(1.25, 2, 3), V(1, 0, 0)), 0.25, 1e-15);
+    fixture_balls b = one_ball(1, 2, 3, 1);
+    assert_certain_hit(fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(1, 2, 3), V(0, 0, -2)), 0.5,
+                       1e-15);
+    assert_certain_hit(fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(1.25, 2, 3), V(1, 0, 0)), 0.25,
+                       1e-15);
     /* Inside the ball, outside the surface. */
-    assert_certain_miss(trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(1.75, 2, 3), V(1, 0, 0)));
-    assert_certain_hit(trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(1.75, 2, 3), V(-1, 0, 0)), 0.25, 1e-15);
+    assert_certain_miss(fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(1.75, 2, 3), V(1, 0, 0)));
+    assert_certain_hit(fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(1.75, 2, 3), V(-1, 0, 0)), 0.25,
+                       1e-15);
 }
 
 static void anEyeOnTheSurfaceIsWhereItIsJustAfter(void **state)
 {
     (void)state;
-    balls b = one_ball(0, 0, 0, 1);
-    assert_certain_miss(trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0.5, 0, 0), V(1, 0, 0)));
-    assert_certain_miss(trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0.5, 0, 0), V(0.1, 1, 0)));
-    assert_certain_hit(trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0.5, 0, 0), V(-1, 0, 0)), 1, 1e-15);
-    mns_hit tangent = trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0.5, 0, 0), V(0, 1, 0));
+    fixture_balls b = one_ball(0, 0, 0, 1);
+    assert_certain_miss(fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0.5, 0, 0), V(1, 0, 0)));
+    assert_certain_miss(fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0.5, 0, 0), V(0.1, 1, 0)));
+    assert_certain_hit(fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0.5, 0, 0), V(-1, 0, 0)), 1,
+                       1e-15);
+    mns_hit tangent = fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0.5, 0, 0), V(0, 1, 0));
     assert_false(tangent.hit && tangent.certain);
     /* As near as doubles come, and yet beside it. */
-    mns_hit beside = trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(nextafter(0.5, 1), 0, 0), V(-1, 0, 0));
+    mns_hit beside =
+        fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(nextafter(0.5, 1), 0, 0), V(-1, 0, 0));
     assert_false(beside.certain && fabs(beside.t - 1) < 0.5);
 }
 
@@ -315,14 +248,16 @@ static void farEyesAndFarFieldsLoseNothing(void **state)
     (void)state;
     static const double away[] = {1e5, 1e7, 1e9, 1e12};
     for (size_t i = 0; i < sizeof away / sizeof *away; i++) {
-        balls b = one_ball(0, 0, 0, 1);
-        mns_hit hit = trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0, 0, away[i]), V(0, 0, -1));
+        fixture_balls b = one_ball(0, 0, 0, 1);
+        mns_hit hit = fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0, 0, away[i]), V(0, 0, -1));
         assert_certain_hit(hit, away[i] - 0.5, 0);
         assert_true(hit.t_error <= 1e-15 * away[i] + 1e-14);
         /* Past the ball by a millionth of its radius. */
-        assert_certain_miss(trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0.500001, 0, away[i]), V(0, 0, -1)));
+        assert_certain_miss(
+            fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0.500001, 0, away[i]), V(0, 0, -1)));
         b = one_ball(away[i], -away[i], away[i], 1);
-        hit = trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(away[i], -away[i], away[i] + 4), V(0, 0, -1));
+        hit =
+            fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(away[i], -away[i], away[i] + 4), V(0, 0, -1));
         assert_certain_hit(hit, 3.5, 1e-14);
     }
 }
@@ -334,17 +269,18 @@ static void radiiMayBeTinyOrHuge(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         for (mns_kernel k = MNS_KERNEL_POLY2; k < MNS_KERNEL_COUNT; k++) {
             double r = sizes[i];
-            balls b = one_ball(0, 0, 0, r), unit = one_ball(0, 0, 0, 1);
-            mns_hit hit = trace_once(&b, k, 0.2, V(3 * r, 0.1 * r, 0), V(-1, 0, 0));
-            mns_hit same = trace_once(&unit, k, 0.2, V(3, 0.1, 0), V(-1, 0, 0));
+            fixture_balls b = one_ball(0, 0, 0, r), unit = one_ball(0, 0, 0, 1);
+            mns_hit hit = fixture_trace_once(&b, k, 0.2, V(3 * r, 0.1 * r, 0), V(-1, 0, 0));
+            mns_hit same = fixture_trace_once(&unit, k, 0.2, V(3, 0.1, 0), V(-1, 0, 0));
             assert_certain_hit(hit, same.t * r, 1e-14 * r);
             assert_true(hit.t_error < 1e-13 * r);
         }
     /* A speck before a giant: 1e-9 of its size, seen and not seen. */
-    balls b = one_ball(0, 0, 0, 1e6);
-    balls_add(&b, 0, 0, 2e6, 1e-3, 1);
-    assert_certain_hit(trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0, 0, 3e6), V(0, 0, -1)), 1e6 - 5e-4, 0);
-    assert_certain_hit(trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(1, 0, 3e6), V(0, 0, -1)),
+    fixture_balls b = one_ball(0, 0, 0, 1e6);
+    fixture_add(&b, 0, 0, 2e6, 1e-3, 1);
+    assert_certain_hit(fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(0, 0, 3e6), V(0, 0, -1)),
+                       1e6 - 5e-4, 0);
+    assert_certain_hit(fixture_trace_once(&b, MNS_KERNEL_POLY2, NINE_16, V(1, 0, 3e6), V(0, 0, -1)),
                        3e6 - sqrt(25e10 - 1), 1e-9);
 }
 
@@ -353,27 +289,27 @@ static void tenThousandBallsMayShareOnePlace(void **state)
     (void)state;
     enum { MANY = 10000 };
     mns_error error;
-    random_numbers r = {12345};
+    fixture_numbers r = {12345};
     double *position = calloc(MANY, 3 * sizeof *position);
     assert_non_null(position);
     for (int spread = 0; spread < 2; spread++) {
         mns_field *field = NULL;
-        for (int i = 0; spread && i < 3 * MANY; i++) position[i] = 2e-7 * (random_next(&r) - 0.5);
+        for (int i = 0; spread && i < 3 * MANY; i++) position[i] = 2e-7 * (fixture_random(&r) - 0.5);
         mns_field_desc desc = {.count = MANY,
                                .position = {.data = position},
                                .uniform_radius = 1,
                                .kernel = MNS_KERNEL_POLY3,
                                .iso = 0.2};
         if (mns_field_create(&desc, &field, &error)) fail_msg("%s", error.text);
-        mns_reference *reference = reference_of(field);
+        mns_reference *reference = fixture_reference(field);
         double surface = sqrt(1 - cbrt(0.2 / MANY));
         for (int i = 0; i < 5; i++) {
             double y = 0.9 * surface * i / 4;
-            assert_certain_hit(trace(reference, V(-3, y, 0), V(1, 0, 0)), 3 - sqrt(surface * surface - y * y),
-                               spread ? 1e-6 : 1e-13);
+            assert_certain_hit(fixture_trace(reference, V(-3, y, 0), V(1, 0, 0)),
+                               3 - sqrt(surface * surface - y * y), spread ? 1e-6 : 1e-13);
         }
-        assert_certain_hit(trace(reference, V(0, 0, 0), V(1, 1, 0)), surface, spread ? 1e-6 : 1e-13);
-        assert_certain_miss(trace(reference, V(-3, surface * 1.00001, 0), V(1, 0, 0)));
+        assert_certain_hit(fixture_trace(reference, V(0, 0, 0), V(1, 1, 0)), surface, spread ? 1e-6 : 1e-13);
+        assert_certain_miss(fixture_trace(reference, V(-3, surface * 1.00001, 0), V(1, 0, 0)));
         mns_reference_destroy(reference);
         mns_field_destroy(field);
     }
@@ -383,18 +319,18 @@ static void tenThousandBallsMayShareOnePlace(void **state)
 static void valuesAreTheOracles(void **state)
 {
     (void)state;
-    random_numbers r = {77};
+    fixture_numbers r = {77};
     for (mns_kernel k = MNS_KERNEL_POLY2; k < MNS_KERNEL_COUNT; k++) {
-        balls b;
+        fixture_balls b;
         crowd_make(&b, MIXED, true, &r);
-        mns_field *field = field_of(&b, k, 0.2);
-        mns_reference *reference = reference_of(field);
+        mns_field *field = fixture_field(&b, k, 0.2);
+        mns_reference *reference = fixture_reference(field);
         brute *oracle = brute_create(field);
         for (int i = 0; i < 200; i++) {
             double x[3], gradient[3], largest = 0;
             long double exact[3], slope[3], unused;
             size_t ball, best = SIZE_MAX;
-            for (int a = 0; a < 3; a++) exact[a] = x[a] = 1.4 * random_next(&r) - 0.2;
+            for (int a = 0; a < 3; a++) exact[a] = x[a] = 1.4 * fixture_random(&r) - 0.2;
             for (size_t j = 0; j < b.count; j++) {
                 long double u = 0;
                 for (int a = 0; a < 3; a++)
@@ -403,9 +339,9 @@ static void valuesAreTheOracles(void **state)
                 if (share > largest) largest = share, best = j;
             }
             double value = mns_reference_value(reference, x, gradient, &ball);
-            assert_close(value, (double)brute_value(oracle, exact), 1e-13);
+            fixture_expect_close(value, (double)brute_value(oracle, exact), 1e-13);
             brute_gradient(oracle, exact, slope);
-            for (int a = 0; a < 3; a++) assert_close(gradient[a], (double)slope[a], 1e-9);
+            for (int a = 0; a < 3; a++) fixture_expect_close(gradient[a], (double)slope[a], 1e-9);
             assert_true(ball == best);
             assert_true(mns_reference_value(reference, x, NULL, NULL) == value);
         }
@@ -418,9 +354,9 @@ static void valuesAreTheOracles(void **state)
 static void badRaysAreUsageErrors(void **state)
 {
     (void)state;
-    balls b = one_ball(0, 0, 0, 1);
-    mns_field *field = field_of(&b, MNS_KERNEL_POLY3, 0.2);
-    mns_reference *reference = reference_of(field);
+    fixture_balls b = one_ball(0, 0, 0, 1);
+    mns_field *field = fixture_field(&b, MNS_KERNEL_POLY3, 0.2);
+    mns_reference *reference = fixture_reference(field);
     mns_hit hit = {.t = 42};
     mns_error error;
     assert_int_equal(mns_reference_trace(reference, V(0, 0, 0), V(0, 0, 0), &hit, &error), MNS_ERROR_USAGE);
@@ -432,8 +368,9 @@ static void badRaysAreUsageErrors(void **state)
     assert_int_equal(mns_reference_create(NULL, &reference, &error), MNS_ERROR_USAGE);
     assert_true(hit.t == 42);
     /* Any length but zero. */
-    assert_certain_hit(trace(reference, V(0, 0, 3), V(0, 0, -1e-300)), 3 - sqrt(1 - cbrt(0.2)), 1e-14);
-    assert_certain_hit(trace(reference, V(0, 0, 3), V(0, 0, -1e300)), 3 - sqrt(1 - cbrt(0.2)), 1e-14);
+    assert_certain_hit(fixture_trace(reference, V(0, 0, 3), V(0, 0, -1e-300)), 3 - sqrt(1 - cbrt(0.2)),
+                       1e-14);
+    assert_certain_hit(fixture_trace(reference, V(0, 0, 3), V(0, 0, -1e300)), 3 - sqrt(1 - cbrt(0.2)), 1e-14);
     mns_reference_destroy(reference);
     mns_reference_destroy(NULL);
     mns_field_destroy(field);
