@@ -41,6 +41,27 @@ static mns_status option_no_cache(app_options *o, const char *name, const char *
     return MNS_OK;
 }
 
+static mns_status option_suite(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->suite = text;
+    if (strcmp(text, "stiff") == 0) return MNS_OK;
+    return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected stiff", name, text);
+}
+
+static mns_status option_case(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    (void)name, (void)error;
+    o->suite_case = text;
+    return MNS_OK;
+}
+
+static mns_status option_quick(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    (void)name, (void)text, (void)error;
+    o->quick = true;
+    return MNS_OK;
+}
+
 enum { TOLERANCE_T = 1, TOLERANCE_NORMAL = 2, TOLERANCE_MASK = 4 };
 
 static mns_status option_tolerance_t(app_options *o, const char *name, const char *text, mns_error *error)
@@ -85,6 +106,12 @@ static const option_row ROWS[] = {
     {"threads", 0, "N", "threads on the CPU (default: one a core)", option_threads},
     OPTIONS_OF_FIELD,
     OPTIONS_OF_CAMERA,
+    {NULL, 0, NULL,
+     "Of hard cases, instead of an input (exit status 1 where an exact solver fails in the stated domain):",
+     NULL},
+    {"suite", 0, "stiff", "every case by every run, with verdicts (docs/domain.md)", option_suite},
+    {"case", 0, "PATTERN", "those cases alone whose name matches, as \"neck*\"", option_case},
+    {"quick", 0, NULL, "without the heavy cases, and with times of first frames", option_quick},
     {NULL, 0, NULL, "Of two saved images (exit status 1 beyond one of these):", NULL},
     {"tolerance-t", 0, "X", "largest |t - t*| / t* (default 1e-5)", option_tolerance_t},
     {"tolerance-normal", 0, "DEG", "largest angle between normals (default 0.5)", option_tolerance_normal},
@@ -94,7 +121,7 @@ static const option_row ROWS[] = {
 
 static const option_table COMPARE_OPTIONS = {
     .command = "compare",
-    .arguments = "INPUT... -o FOLDER\nA.exr B.exr [-o FOLDER]",
+    .arguments = "INPUT... -o FOLDER\n--suite stiff [-o FOLDER]\nA.exr B.exr [-o FOLDER]",
     .doc = "Draws INPUT by several methods, over the same rays, and measures each: its time, and its errors "
            "against the certified tracer's truth (docs/errors.md). Of two saved images, A.exr is the truth.",
     .rows = ROWS,
@@ -236,7 +263,9 @@ int app_compare(int argc, char **argv)
     if (!o.timed_frames) o.timed_frames = RUN_FRAMES_LEAST;
     if (!(o.tolerance_set & TOLERANCE_T)) o.tolerance.t = IMAGES_TOLERANCE_T;
     if (!(o.tolerance_set & TOLERANCE_NORMAL)) o.tolerance.normal = IMAGES_TOLERANCE_NORMAL;
-    if (!status && !o.help)
+    if (!status && !o.help && o.suite)
+        status = compare_suite(&o, command, &error);
+    else if (!status && !o.help)
         status = are_images(&o) ? compare_images(&o, command, &error) : compare_input(&o, command, &error);
     options_free(&o);
     free(command);

@@ -25,6 +25,9 @@ typedef struct app_options {
     const char *runs;           /* compare; NULL: the default ones */
     int timed_frames;           /* compare */
     bool no_cache;              /* compare */
+    const char *suite;          /* compare; NULL: none */
+    const char *suite_case;     /* of it, those whose name matches; NULL: all */
+    bool quick;                 /* of it, without the heavy ones */
     images_tolerance tolerance; /* compare of two images */
     unsigned tolerance_set;     /* which of it were given */
     long rays, seed;            /* verify */

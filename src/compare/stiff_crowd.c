@@ -82,7 +82,7 @@ void stiff_level_alone(stiff_scene *scene, const double *number)
 {
     scene->iso = number[0];
     double core = number[0] < 1 ? stiff_inverse(scene, number[0]) : 0;
-    double spacing = fmax(6 * core, 1e-5); /* in radii: the cores are what is to be seen */
+    double spacing = fmax(6 * core, 1e-3); /* in radii: the cores are what is to be seen */
     for (int i = 0; i < 16; i++) {
         vec3 at = vec3_make(2.5 * (i % 4 - 1.5), 2.5 * (i / 4 - 1.5), 0.1 * i);
         stiff_ball(scene, at, 1, 1);
