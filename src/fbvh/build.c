@@ -91,6 +91,7 @@ static void gather_figures(const fbvh_builder *b, builder_slot *slot)
     f->own = sum.own;
     f->discarded = sum.discarded;
     f->leaves_bounded = sum.bounded;
+    f->leaves_deep = sum.deep;
 }
 
 static void count_bytes(const fbvh_builder *b, builder_slot *slot)

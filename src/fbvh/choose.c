@@ -4,13 +4,13 @@
 #include <float.h>
 #include <string.h>
 
-/* Larger nodes are sampled: the heuristic asks for shares, and a thousand balls tell those. */
-enum { BINS_MOST = 16, BINS_FEW = 8, FEW = 96, SAMPLE = 1024 };
+enum { BINS_MOST = 16, BINS_FEW = 8, FEW = 256 };
 
 typedef struct bins {
     int count;
-    uint32_t enter[3][BINS_MOST]; /* balls whose extent along the axis begins in the bin */
-    uint32_t leave[3][BINS_MOST]; /* ... and ends */
+    float lo[3], width[3];
+    uint32_t enter[3][BINS_MOST + 1]; /* balls whose extent along the axis begins before the bin */
+    uint32_t leave[3][BINS_MOST + 1]; /* ... and ends before it */
 } bins;
 
 /* The own balls of an overlapping tree, whose centres lie in a bin. */
@@ -26,24 +26,61 @@ static int bin_of(float x, int count)
     return bin;
 }
 
-static void fill(const work_set *set, const work_node *node, const uint32_t *list, size_t step, bins *b)
+/* Where a plane before bin i stands. */
+static float plane_of(const bins *b, int axis, int i)
 {
-    float scale[3];
-    for (int a = 0; a < 3; a++) {
-        float extent = node->hi[a] - node->lo[a];
-        scale[a] = extent > 0 ? (float)b->count / extent : 0;
-        if (!(scale[a] < FLT_MAX)) scale[a] = 0;
+    return b->lo[axis] + b->width[axis] * (float)i;
+}
+
+/* Few bins: each plane is held against all balls, many at a time. */
+WORK_WIDE static void compare(const work_set *set, const work_block *block, int axis, bins *b)
+{
+    const float *at = block->at[axis], slack = set->slack;
+    for (int i = 1; i < b->count; i++) {
+        float plane = plane_of(b, axis, i);
+        int enter = 0, leave = 0, n = (int)block->count;
+#pragma omp simd reduction(+ : enter, leave)
+        for (int k = 0; k < n; k++) {
+            float reach = block->radius[k] * WORK_GROW + slack;
+            enter += at[k] - reach <= plane;
+            leave += at[k] + reach < plane;
+        }
+        b->enter[axis][i] = (uint32_t)enter;
+        b->leave[axis][i] = (uint32_t)leave;
     }
+}
+
+/* More: every ball is put where it begins and ends. */
+WORK_WIDE static void count(const work_set *set, const work_block *block, int axis, bins *b)
+{
+    int from[WORK_BLOCK], to[WORK_BLOCK], n = (int)block->count;
+    float scale = 1 / b->width[axis], lo = b->lo[axis], last = (float)(b->count - 1), slack = set->slack;
+    for (int k = 0; k < n; k++) {
+        float reach = block->radius[k] * WORK_GROW + slack, at = block->at[axis][k] - lo;
+        from[k] = (int)work_least(work_most((at - reach) * scale, 0), last);
+        to[k] = (int)work_least(work_most((at + reach) * scale, 0), last);
+    }
+    for (int k = 0; k < n; k++) {
+        b->enter[axis][from[k] + 1]++;
+        b->leave[axis][to[k] + 1]++;
+    }
+    for (int i = 1; i <= b->count; i++) {
+        b->enter[axis][i] += b->enter[axis][i - 1];
+        b->leave[axis][i] += b->leave[axis][i - 1];
+    }
+}
+
+static void fill(const work_set *set, const work_node *node, const work_block *block, bins *b)
+{
     memset(b->enter, 0, sizeof b->enter);
     memset(b->leave, 0, sizeof b->leave);
-    for (size_t i = 0; i < node->count; i += step) {
-        const fbvh_ball *ball = &set->ball[list[i]];
-        float reach = work_reach(set, ball);
-        for (int a = 0; a < 3; a++) {
-            float at = ball->position[a] - node->lo[a];
-            b->enter[a][bin_of((at - reach) * scale[a], b->count)]++;
-            b->leave[a][bin_of((at + reach) * scale[a], b->count)]++;
-        }
+    for (int a = 0; a < 3; a++) {
+        b->lo[a] = node->lo[a];
+        b->width[a] = (node->hi[a] - node->lo[a]) / (float)b->count;
+        if (!(b->width[a] > FLT_MIN)) b->width[a] = 0;
+        if (b->width[a] > 0 && b->count == BINS_FEW) compare(set, block, a, b);
+        if (b->width[a] > 0 && b->count != BINS_FEW) count(set, block, a, b);
+        b->enter[a][b->count] = b->leave[a][b->count] = (uint32_t)block->count;
     }
 }
 
@@ -85,20 +122,15 @@ static void offer(search *s, const work_node *node, float cost, float balls, int
 static void search_fitted(const work_set *set, const work_node *node, const bins *b, float scale, search *s)
 {
     for (int a = 0; a < 3; a++) {
-        float extent[3] = {node->hi[0] - node->lo[0], node->hi[1] - node->lo[1], node->hi[2] - node->lo[2]};
-        float width = extent[a] / (float)b->count;
-        float past = extent[(a + 1) % 3] + extent[(a + 2) % 3],
-              face = extent[(a + 1) % 3] * extent[(a + 2) % 3];
-        uint32_t below = 0, gone = 0, all = 0;
-        for (int i = 0; i < b->count; i++) all += b->enter[a][i];
-        for (int i = 1; i < b->count; i++) {
-            below += b->enter[a][i - 1];
-            gone += b->leave[a][i - 1];
-            float left = (float)below * scale, right = (float)(all - gone) * scale;
-            float area_left = face + past * width * (float)i;
-            float area_right = face + past * width * (float)(b->count - i);
+        float width = b->width[a], one = node->hi[(a + 1) % 3] - node->lo[(a + 1) % 3];
+        float two = node->hi[(a + 2) % 3] - node->lo[(a + 2) % 3], face = one * two, round = one + two;
+        for (int i = 1; i < b->count && width > 0; i++) {
+            float left = (float)b->enter[a][i] * scale,
+                  right = (float)(b->enter[a][b->count] - b->leave[a][i]) * scale;
+            float area_left = face + round * width * (float)i;
+            float area_right = face + round * width * (float)(b->count - i);
             float cost = area_left * cost_of(set, left) + area_right * cost_of(set, right);
-            float plane = node->lo[a] + width * (float)i;
+            float plane = plane_of(b, a, i);
             if (plane > node->lo[a] && plane < node->hi[a]) offer(s, node, cost, left + right, a, plane);
         }
     }
@@ -120,38 +152,33 @@ static void crowd_add(crowd *sum, const crowd *one)
     sum->to = work_most(sum->to, one->to);
 }
 
-static void fill_crowds(const work_set *set, const work_node *node, const uint32_t *list, size_t step,
-                        int axis, int count, crowd *bin)
+/* `own` of the block's balls are the node's own. */
+static void fill_crowds(const work_set *set, const work_node *node, const work_block *block, size_t own,
+                        const bins *b, int axis, crowd *bin)
 {
-    float extent = node->hi[axis] - node->lo[axis], scale = (float)count / extent;
-    if (!(extent > 0 && scale < FLT_MAX)) scale = 0;
-    for (int i = 0; i < count; i++) crowd_clear(&bin[i]);
-    for (size_t i = 0; i < node->own; i += step) {
-        const fbvh_ball *ball = &set->ball[list[i]];
-        float tight = work_tight(set, ball, node->span), reach = work_reach(set, ball);
-        crowd one = {.count = 1, .from = ball->position[axis] - reach, .to = ball->position[axis] + reach};
+    for (int i = 0; i < b->count; i++) crowd_clear(&bin[i]);
+    for (size_t k = 0; k < own; k++) {
+        float tight = block->radius[k] * node->span + set->slack,
+              reach = block->radius[k] * WORK_GROW + set->slack;
+        float at = block->at[axis][k];
+        crowd one = {.count = 1, .from = at - reach, .to = at + reach};
         for (int a = 0; a < 3; a++) {
-            one.lo[a] = ball->position[a] - tight;
-            one.hi[a] = ball->position[a] + tight;
+            one.lo[a] = block->at[a][k] - tight;
+            one.hi[a] = block->at[a][k] + tight;
         }
-        crowd_add(&bin[bin_of((ball->position[axis] - node->lo[axis]) * scale, count)], &one);
+        crowd_add(&bin[bin_of((at - b->lo[axis]) / b->width[axis], b->count)], &one);
     }
 }
 
 /* Children are the boxes of the balls whose centres lie on either side; a ball that reaches into the stretch
  * that a child's effective spheres cover counts with that child. */
-static void search_overlapping(const work_set *set, const work_node *node, const uint32_t *list, size_t step,
-                               const bins *b, float scale, search *s)
+static void search_overlapping(const work_set *set, const work_node *node, const work_block *block,
+                               size_t own, const bins *b, float scale, search *s)
 {
     for (int a = 0; a < 3; a++) {
         crowd bin[BINS_MOST], right[BINS_MOST], left;
-        float width = (node->hi[a] - node->lo[a]) / (float)b->count;
-        fill_crowds(set, node, list, step, a, b->count, bin);
-        uint32_t enter[BINS_MOST + 1] = {0}, leave[BINS_MOST + 1] = {0};
-        for (int i = 0; i < b->count; i++) {
-            enter[i + 1] = enter[i] + b->enter[a][i];
-            leave[i + 1] = leave[i] + b->leave[a][i];
-        }
+        if (!(b->width[a] > 0)) continue;
+        fill_crowds(set, node, block, own, b, a, bin);
         right[b->count - 1] = bin[b->count - 1];
         for (int i = b->count - 2; i > 0; i--) {
             right[i] = bin[i];
@@ -160,14 +187,14 @@ static void search_overlapping(const work_set *set, const work_node *node, const
         crowd_clear(&left);
         for (int i = 1; i < b->count; i++) {
             crowd_add(&left, &bin[i - 1]);
-            if (!left.count || !right[i].count || !(width > 0)) continue;
-            int to = bin_of((left.to - node->lo[a]) / width, b->count);
-            int from = bin_of((right[i].from - node->lo[a]) / width, b->count);
-            float balls_left = (float)enter[to + 1] * scale;
-            float balls_right = (float)(leave[b->count] - leave[from]) * scale;
+            if (!left.count || !right[i].count) continue;
+            int to = bin_of((left.to - node->lo[a]) / b->width[a], b->count);
+            int from = bin_of((right[i].from - node->lo[a]) / b->width[a], b->count);
+            float balls_left = (float)b->enter[a][to + 1] * scale;
+            float balls_right = (float)(b->leave[a][b->count] - b->leave[a][from]) * scale;
             float cost = box_area(left.lo, left.hi) * cost_of(set, balls_left) +
                          box_area(right[i].lo, right[i].hi) * cost_of(set, balls_right);
-            offer(s, node, cost, balls_left + balls_right, a, node->lo[a] + width * (float)i);
+            offer(s, node, cost, balls_left + balls_right, a, plane_of(b, a, i));
         }
     }
 }
@@ -181,8 +208,8 @@ static void middle(const work_node *node, work_cut *cut)
     cut->plane = 0.5f * node->lo[cut->axis] + 0.5f * node->hi[cut->axis];
 }
 
-bool work_choose(const work_set *set, const work_node *node, const uint32_t *list, work_cut *cut,
-                 bool *bounded)
+bool work_choose(const work_set *set, const work_node *node, const work_block *block, size_t step,
+                 work_cut *cut, bool *bounded)
 {
     *bounded = false;
     if (node->count <= set->options.leaf_least) return false;
@@ -195,15 +222,14 @@ bool work_choose(const work_set *set, const work_node *node, const uint32_t *lis
         middle(node, cut);
         return true;
     }
-    size_t step = node->count / SAMPLE + 1;
-    bins b = {.count = node->count < FEW ? BINS_FEW : BINS_MOST};
-    fill(set, node, list, step, &b);
+    bins b = {.count = block->count < FEW ? BINS_FEW : BINS_MOST};
+    fill(set, node, block, &b);
     float area = box_area(node->lo, node->hi), balls = (float)node->count;
     search s = {.best = area * (cost_of(set, balls) - (float)set->options.traversal_cost)};
     if (set->options.kind == FBVH_FITTED)
         search_fitted(set, node, &b, (float)step, &s);
     else
-        search_overlapping(set, node, list, step, &b, (float)step, &s);
+        search_overlapping(set, node, block, (node->own + step - 1) / step, &b, (float)step, &s);
     *cut = s.cut;
     *bounded = s.bounded && !s.found;
     return s.found;

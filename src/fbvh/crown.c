@@ -22,10 +22,12 @@ static void cut_one(const work_set *set, const uint32_t *list, uint32_t *next, s
     size_t count = c->node.count;
     work_cut cut;
     bool bounded;
+    work_block block;
     c->divided = false;
-    if (count > job_most && work_choose(set, &c->node, own, &cut, &bounded)) {
+    if (count > job_most &&
+        work_choose(set, &c->node, &block, work_look(set, &c->node, own, &block), &cut, &bounded)) {
         uint32_t *list_of[2] = {next + c->at, next + c->at + count};
-        work_part(set, &c->node, own, &cut, list_of, c->child);
+        work_part(set, &c->node, own, &cut, &block, list_of, c->child);
         c->child[0].first = c->at;
         c->child[1].first = c->at + count;
         c->divided = work_share(&c->node, c->child);

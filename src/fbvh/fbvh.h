@@ -42,6 +42,7 @@ typedef struct fbvh_options {
     bool no_fit;              /* a child's box is its half of the parent's; FBVH_FITTED only */
     bool no_tight;            /* boxes of whole effective spheres (Table 5, "tighter bbox" off) */
     bool no_discard;          /* keep balls that cannot contribute (Table 5, "discarding" off) */
+    bool no_deep;             /* split where the whole box seems to be deep inside, too */
     unsigned discard_most;    /* no discarding in leaves of more balls; 0: 12 */
     unsigned leaf_least;      /* a node of so few balls is not split; 0: 4 */
     double traversal_cost;    /* of one inner node, in units of the leaf's cost; 0: the default of the cost */
@@ -73,6 +74,7 @@ typedef struct fbvh_figures {
     size_t own;       /* FBVH_OVERLAPPING: references that are not split; each ball has at most one */
     size_t discarded; /* references that section 5.3.2 took out */
     size_t reference_bound;
+    size_t leaves_deep;    /* leaves not split further since the surface seems not to come there */
     size_t leaves_bounded; /* leaves that the bounds kept from being split further */
     bool made_smaller;     /* max_block_bytes lowered the bounds */
     size_t memory_bytes;   /* of nodes, references, balls and strengths: what the GPU gets */
@@ -111,8 +113,8 @@ mns_status fbvh_build(fbvh_builder *builder, const mns_field *field, const fbvh_
 /* What the floats of tree->ball left over of the doubles: x, y, z and R, four floats a ball. */
 void fbvh_pack_low(const fbvh_tree *tree, const mns_field *field, float *out);
 
-/* Sets options by name, comma separated: bvh | fbvh, cost-n | cost-n2, no-fit, no-tight, no-discard, and with
- * numbers discard-most=N, leaf-least=N, traversal-cost=X, middle-levels=N, references=X (a ball),
+/* Sets options by name, comma separated: bvh | fbvh, cost-n | cost-n2, no-fit, no-tight, no-discard, no-deep,
+ * and with numbers discard-most=N, leaf-least=N, traversal-cost=X, middle-levels=N, references=X (a ball),
  * block-bytes=N. NULL or "" changes nothing. Errors: USAGE. */
 mns_status fbvh_options_parse(const char *text, fbvh_options *options, mns_error *error);
 

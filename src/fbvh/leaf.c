@@ -103,8 +103,9 @@ static size_t discard(const work_set *set, work_node *node, uint32_t *list)
     return before - node->count;
 }
 
-size_t work_leaf(const work_set *set, work_node *node, uint32_t *list, size_t *discarded)
+size_t work_leaf(const work_set *set, work_node *node, uint32_t *list, work_block *block, size_t *discarded)
 {
+    (void)block;
     const fbvh_options *o = &set->options;
     bool fits = o->kind == FBVH_OVERLAPPING || !o->no_fit;
     *discarded = 0;

@@ -60,6 +60,8 @@ static bool set_flag(const char *name, size_t length, fbvh_options *o)
         o->no_tight = true;
     else if (IS("no-discard"))
         o->no_discard = true;
+    else if (IS("no-deep"))
+        o->no_deep = true;
     else
         return false;
     return true;
@@ -104,7 +106,8 @@ mns_status fbvh_options_parse(const char *text, fbvh_options *options, mns_error
         if (!known)
             return status_fail(
                 error, MNS_ERROR_USAGE,
-                "fbvh: \"%.*s\": expected fbvh, bvh, cost-n, cost-n2, no-fit, no-tight, no-discard, or "
+                "fbvh: \"%.*s\": expected fbvh, bvh, cost-n, cost-n2, no-fit, no-tight, no-discard, no-deep, "
+                "or "
                 "discard-most, leaf-least, traversal-cost, middle-levels, references or block-bytes "
                 "with =number",
                 (int)(length < 60 ? length : 60), at);

@@ -40,35 +40,71 @@ static void close_fitted(const work_set *set, const side *s, work_node *child)
     if (child->span < 0) child->count = 0;
 }
 
-static void part_fitted(const work_set *set, const work_node *node, const uint32_t *list, const work_cut *cut,
-                        uint32_t *list_of[2], work_node child[2])
+/* One block's balls on one side: which reach into the box lo, hi, and what they add. */
+WORK_WIDE static void take_side(const work_set *set, const work_block *block, const float lo[3],
+                                const float hi[3], float span, bool fits, unsigned char *taken, side *s)
 {
-    int a = cut->axis, b = (a + 1) % 3, c = (a + 2) % 3;
-    side side_of[2] = {{0, 0, nothing}, {0, 0, nothing}};
-    for (size_t i = 0; i < node->count; i++) {
-        uint32_t ref = list[i];
-        const fbvh_ball *ball = &set->ball[ref];
-        const float *p = ball->position;
-        float reach = work_reach(set, ball), tight = work_tight(set, ball, node->span);
-        float db = work_most(work_most(node->lo[b] - p[b], p[b] - node->hi[b]), 0);
-        float dc = work_most(work_most(node->lo[c] - p[c], p[c] - node->hi[c]), 0);
-        float da[2] = {work_most(work_most(node->lo[a] - p[a], p[a] - cut->plane), 0),
-                       work_most(work_most(cut->plane - p[a], p[a] - node->hi[a]), 0)};
-        float q = work_strength(set, ref);
-        for (int k = 0; k < 2; k++) {
-            float distance = db * db + dc * dc + da[k] * da[k];
-            if (!(distance <= reach * reach)) continue;
-            list_of[k][side_of[k].count++] = ref;
-            if (!(q > 0)) continue;
-            side_of[k].sum += q;
-            if (distance <= tight * tight) hull_add(&side_of[k].tight, ball, tight);
-        }
+    int n = (int)block->count, positive = 0;
+    float slack = set->slack, far = FLT_MAX;
+    float x0 = far, y0 = far, z0 = far, x1 = -far, y1 = -far, z1 = -far;
+    const float *px = block->at[0], *py = block->at[1], *pz = block->at[2];
+    int in[WORK_BLOCK];
+#pragma omp simd reduction(+ : positive) reduction(min : x0, y0, z0) reduction(max : x1, y1, z1)
+    for (int k = 0; k < n; k++) {
+        float x = px[k], y = py[k], z = pz[k], radius = block->radius[k];
+        float dx = work_most(work_most(lo[0] - x, x - hi[0]), 0);
+        float dy = work_most(work_most(lo[1] - y, y - hi[1]), 0);
+        float dz = work_most(work_most(lo[2] - z, z - hi[2]), 0);
+        float distance = dx * dx + dy * dy + dz * dz, reach = radius * WORK_GROW + slack;
+        float tight = radius * span + slack;
+        int pulls = block->strength[k] > 0, is = distance <= reach * reach;
+        /* What is not near enough to hold the surface grows no box. */
+        float away = (distance <= tight * tight) & pulls ? 0 : far;
+        in[k] = is;
+        positive += is & pulls;
+        x0 = work_least(x0, x - tight + away), x1 = work_most(x1, x + tight - away);
+        y0 = work_least(y0, y - tight + away), y1 = work_most(y1, y + tight - away);
+        z0 = work_least(z0, z - tight + away), z1 = work_most(z1, z + tight - away);
     }
+    for (int k = 0; k < n; k++) taken[k] = (unsigned char)in[k];
+    if (set->strength)
+        for (int k = 0; k < n; k++)
+            s->sum += in[k] && block->strength[k] > 0 ? (double)block->strength[k] : 0;
+    else
+        s->sum += positive;
+    if (!fits) return;
+    float from[3] = {x0, y0, z0}, to[3] = {x1, y1, z1};
+    for (int a = 0; a < 3; a++) {
+        s->tight.lo[a] = work_least(s->tight.lo[a], from[a]);
+        s->tight.hi[a] = work_most(s->tight.hi[a], to[a]);
+    }
+}
+
+static void part_fitted(const work_set *set, const work_node *node, const uint32_t *list, const work_cut *cut,
+                        work_block *block, uint32_t *list_of[2], work_node child[2])
+{
+    side side_of[2] = {{0, 0, nothing}, {0, 0, nothing}};
+    unsigned char taken[2][WORK_BLOCK];
     for (int k = 0; k < 2; k++) {
         child[k] = *node;
-        (k ? child[k].lo : child[k].hi)[a] = cut->plane;
-        close_fitted(set, &side_of[k], &child[k]);
+        (k ? child[k].lo : child[k].hi)[cut->axis] = cut->plane;
     }
+    for (size_t first = 0; first < node->count; first += WORK_BLOCK) {
+        size_t count = node->count - first < WORK_BLOCK ? node->count - first : WORK_BLOCK;
+        if (node->count > WORK_BLOCK) work_gather(set, list + first, count, 1, block);
+        for (int k = 0; k < 2; k++)
+            take_side(set, block, child[k].lo, child[k].hi, node->span, !set->options.no_fit, taken[k],
+                      &side_of[k]);
+        uint32_t *left = list_of[0] + side_of[0].count, *right = list_of[1] + side_of[1].count;
+        for (size_t i = 0; i < count; i++) {
+            *left = *right = list[first + i];
+            left += taken[0][i];
+            right += taken[1][i];
+        }
+        side_of[0].count = (size_t)(left - list_of[0]);
+        side_of[1].count = (size_t)(right - list_of[1]);
+    }
+    for (int k = 0; k < 2; k++) close_fitted(set, &side_of[k], &child[k]);
 }
 
 /* The split balls of an overlapping child: those of the node and its sibling's own whose spheres meet the box
@@ -116,10 +152,10 @@ static void part_overlapping(const work_set *set, const work_node *node, const u
 }
 
 void work_part(const work_set *set, const work_node *node, const uint32_t *list, const work_cut *cut,
-               uint32_t *list_of[2], work_node child[2])
+               work_block *block, uint32_t *list_of[2], work_node child[2])
 {
     if (set->options.kind == FBVH_FITTED)
-        part_fitted(set, node, list, cut, list_of, child);
+        part_fitted(set, node, list, cut, block, list_of, child);
     else
         part_overlapping(set, node, list, cut, list_of, child);
 }

@@ -22,7 +22,7 @@ static bool close_leaf(const work_set *set, work_node *node, work_bench *bench, 
                        bool *found, work_tally *tally)
 {
     uint32_t *list = bench->list + node->first;
-    size_t discarded, count = work_leaf(set, node, list, &discarded);
+    size_t discarded, count = work_leaf(set, node, list, &bench->block, &discarded);
     *found = count > 0;
     if (!count) return true;
     if (!work_reserve(&bench->reference, &bench->reference_capacity, bench->reference_count + count,
@@ -49,7 +49,12 @@ static int cut_node(const work_set *set, work_node *node, work_bench *bench, wor
 {
     work_cut cut;
     bool bounded;
-    bool wanted = work_choose(set, node, bench->list + node->first, &cut, &bounded);
+    size_t step = work_look(set, node, bench->list + node->first, &bench->block);
+    if (step == 1 && !set->options.no_deep && work_deep(set, node, &bench->block)) {
+        tally->deep++;
+        return CUT_LEAF;
+    }
+    bool wanted = work_choose(set, node, &bench->block, step, &cut, &bounded);
     tally->bounded += bounded;
     if (!wanted) return CUT_LEAF;
     size_t top = node->first + node->count;
@@ -57,7 +62,7 @@ static int cut_node(const work_set *set, work_node *node, work_bench *bench, wor
         return CUT_MEMORY;
     uint32_t *list = bench->list + node->first;
     uint32_t *list_of[2] = {list + node->count, list + 2 * node->count};
-    work_part(set, node, list, &cut, list_of, child);
+    work_part(set, node, list, &cut, &bench->block, list_of, child);
     if (!work_share(node, child)) {
         tally->bounded++;
         return CUT_LEAF;

@@ -12,6 +12,22 @@
 enum { WORK_SPANS_AN_OCTAVE = 32, WORK_OCTAVES = 24, WORK_SPANS = WORK_SPANS_AN_OCTAVE * WORK_OCTAVES };
 #define WORK_GROW (1 + 0x1p-20f)
 
+/* Loops over a block are compiled for wider vectors too, and the processor picks: same operations, same bits.
+ * (Sanitizers cannot watch the picking.) */
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&     \
+    !defined(__SANITIZE_THREAD__)
+#define WORK_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define WORK_WIDE
+#endif
+
+/* Balls side by side, for loops to take several at a time. */
+enum { WORK_BLOCK = 1024 };
+typedef struct work_block {
+    size_t count;
+    float at[3][WORK_BLOCK], radius[WORK_BLOCK], strength[WORK_BLOCK];
+} work_block;
+
 typedef struct work_set {
     fbvh_options options; /* resolved */
     const fbvh_ball *ball;
@@ -79,25 +95,36 @@ static inline float work_distance(const float lo[3], const float hi[3], const fl
 float work_span(const work_set *set, double sum);
 void work_span_fill(work_set *set, mns_kernel kernel);
 
+/* Fills the block with every `step`th ball of a list. */
+void work_gather(const work_set *set, const uint32_t *list, size_t count, size_t step, work_block *block);
+
+/* What work_choose sees of a node: a block of its balls, every `step`th. Small nodes lie in it whole (step
+ * 1), and the later stages find them there. */
+size_t work_look(const work_set *set, const work_node *node, const uint32_t *list, work_block *block);
+
 /* Where to cut (section 5.1.1). False: better, or only possible, a leaf; *bounded then says whether only the
  * bounds forbid a cut. */
-bool work_choose(const work_set *set, const work_node *node, const uint32_t *list, work_cut *cut,
-                 bool *bounded);
+bool work_choose(const work_set *set, const work_node *node, const work_block *block, size_t step,
+                 work_cut *cut, bool *bounded);
+
+/* Whether the whole box seems to be deep inside the surface: f at its middle and corners is far above L. */
+bool work_deep(const work_set *set, const work_node *node, const work_block *block);
 
 /* Shares the node's references out; each child's go to its own array of node->count, its `first` is left to
- * the caller. A child that can hold no surface has count 0. */
+ * the caller. A child that can hold no surface has count 0. The block holds the node, if all of it fits. */
 void work_part(const work_set *set, const work_node *node, const uint32_t *list, const work_cut *cut,
-               uint32_t *list_of[2], work_node child[2]);
+               work_block *block, uint32_t *list_of[2], work_node child[2]);
 
 /* Sets levels and bounds of two children; false where together they break the node's bounds. */
 bool work_share(const work_node *node, work_node child[2]);
 
 /* Fits a leaf's box, drops what does not reach it or cannot contribute (section 5.3.2), and marks split
  * balls. `list` is rewritten in place; returns the references left, 0: no surface in it. */
-size_t work_leaf(const work_set *set, work_node *node, uint32_t *list, size_t *discarded);
+size_t work_leaf(const work_set *set, work_node *node, uint32_t *list, work_block *block, size_t *discarded);
 
 /* What one thread makes: subtrees, one after another. Children stand before their parents. */
 typedef struct work_bench {
+    work_block block;
     uint32_t *list; /* references of the nodes still open, as a stack */
     size_t list_capacity;
     fbvh_node *node;
@@ -107,7 +134,7 @@ typedef struct work_bench {
 } work_bench;
 
 typedef struct work_tally {
-    size_t leaves, depth, leaf_largest, discarded, bounded, own;
+    size_t leaves, depth, leaf_largest, discarded, bounded, own, deep;
 } work_tally;
 
 typedef struct work_job {
@@ -151,6 +178,7 @@ static inline void work_tally_add(work_tally *sum, const work_tally *one)
     sum->discarded += one->discarded;
     sum->bounded += one->bounded;
     sum->own += one->own;
+    sum->deep += one->deep;
     if (one->leaf_largest > sum->leaf_largest) sum->leaf_largest = one->leaf_largest;
 }
 
