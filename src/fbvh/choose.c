@@ -38,7 +38,7 @@ WORK_WIDE static void compare(const work_set *set, const work_block *block, int 
     const float *at = block->at[axis], slack = set->slack;
     for (int i = 1; i < b->count; i++) {
         float plane = plane_of(b, axis, i);
-        int enter = 0, leave = 0, n = (int)block->count;
+        int enter = 0, leave = 0, n = work_lanes(block);
 #pragma omp simd reduction(+ : enter, leave)
         for (int k = 0; k < n; k++) {
             float reach = block->radius[k] * WORK_GROW + slack;
@@ -53,14 +53,14 @@ WORK_WIDE static void compare(const work_set *set, const work_block *block, int 
 /* More: every ball is put where it begins and ends. */
 WORK_WIDE static void count(const work_set *set, const work_block *block, int axis, bins *b)
 {
-    int from[WORK_BLOCK], to[WORK_BLOCK], n = (int)block->count;
+    int from[WORK_BLOCK], to[WORK_BLOCK], n = work_lanes(block);
     float scale = 1 / b->width[axis], lo = b->lo[axis], last = (float)(b->count - 1), slack = set->slack;
     for (int k = 0; k < n; k++) {
         float reach = block->radius[k] * WORK_GROW + slack, at = block->at[axis][k] - lo;
         from[k] = (int)work_least(work_most((at - reach) * scale, 0), last);
         to[k] = (int)work_least(work_most((at + reach) * scale, 0), last);
     }
-    for (int k = 0; k < n; k++) {
+    for (size_t k = 0; k < block->count; k++) {
         b->enter[axis][from[k] + 1]++;
         b->leave[axis][to[k] + 1]++;
     }

@@ -1,8 +1,6 @@
 /* Closing a leaf: its box fitted to what can hold the surface, what cannot matter in it left out. */
 #include "fbvh/work.h"
 
-#include <float.h>
-
 static bool meets(const work_node *node, const fbvh_ball *ball, float radius)
 {
     return work_distance(node->lo, node->hi, ball->position) <= radius * radius;
@@ -27,46 +25,59 @@ static bool meets_own(const work_set *set, const work_node *node, const uint32_t
     return false;
 }
 
-/* Keeps what reaches the leaf, and finds its S+. */
-static void sift(const work_set *set, work_node *node, uint32_t *list)
+/* The part of the leaf's box that `side` covers; false: none. */
+static bool shrink(work_node *node, const work_side *side)
 {
-    bool fitted = set->options.kind == FBVH_FITTED;
-    size_t kept = fitted ? 0 : node->own;
-    double sum = 0;
-    for (size_t i = kept; i < node->count; i++) {
-        const fbvh_ball *ball = &set->ball[list[i]];
-        if (fitted ? meets(node, ball, work_reach(set, ball)) : meets_own(set, node, list, list[i]))
-            list[kept++] = list[i];
+    for (int a = 0; a < 3; a++) {
+        node->lo[a] = work_most(node->lo[a], side->lo[a]);
+        node->hi[a] = work_least(node->hi[a], side->hi[a]);
+        if (node->lo[a] > node->hi[a]) return false;
     }
+    return true;
+}
+
+/* Keeps what reaches the leaf's box, finds S+ of it, and fits the box. False: no surface in it. */
+static bool sift_fitted(const work_set *set, work_node *node, uint32_t *list, work_block *block)
+{
+    unsigned char taken[WORK_BLOCK];
+    work_side side = work_side_none();
+    for (size_t first = 0; first < node->count; first += WORK_BLOCK) {
+        size_t count = node->count - first < WORK_BLOCK ? node->count - first : WORK_BLOCK;
+        work_gather(set, list + first, count, 1, block);
+        work_take(set, block, node->lo, node->hi, node->span, taken, &side);
+        for (size_t i = 0; i < count; i++) {
+            list[side.count] = list[first + i];
+            side.count += taken[i];
+        }
+    }
+    node->count = node->own = side.count;
+    node->span = work_span(set, side.sum);
+    return side.count && node->span >= 0 && (set->options.no_fit || shrink(node, &side));
+}
+
+static bool sift_overlapping(const work_set *set, work_node *node, uint32_t *list)
+{
+    size_t kept = node->own;
+    double sum = 0;
+    for (size_t i = node->own; i < node->count; i++)
+        if (meets_own(set, node, list, list[i])) list[kept++] = list[i];
     for (size_t i = 0; i < kept; i++) {
         float q = work_strength(set, list[i]);
         if (q > 0) sum += q;
     }
     node->count = kept;
-    if (fitted) node->own = kept;
     node->span = work_span(set, sum);
-}
-
-/* The box of the tight spheres that meet it (of an overlapping leaf: of its own), within what it was; false:
- * none does. */
-static bool fit(const work_set *set, work_node *node, const uint32_t *list)
-{
-    float lo[3] = {FLT_MAX, FLT_MAX, FLT_MAX}, hi[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
+    if (node->span < 0) return false;
+    work_side side = work_side_none();
     for (size_t i = 0; i < node->own; i++) {
         const fbvh_ball *ball = &set->ball[list[i]];
         float tight = work_tight(set, ball, node->span);
-        if (!(work_strength(set, list[i]) > 0) || !meets(node, ball, tight)) continue;
         for (int a = 0; a < 3; a++) {
-            lo[a] = work_least(lo[a], ball->position[a] - tight);
-            hi[a] = work_most(hi[a], ball->position[a] + tight);
+            side.lo[a] = work_least(side.lo[a], ball->position[a] - tight);
+            side.hi[a] = work_most(side.hi[a], ball->position[a] + tight);
         }
     }
-    for (int a = 0; a < 3; a++) {
-        node->lo[a] = work_most(node->lo[a], lo[a]);
-        node->hi[a] = work_least(node->hi[a], hi[a]);
-        if (node->lo[a] > node->hi[a]) return false;
-    }
-    return true;
+    return shrink(node, &side);
 }
 
 /* Section 5.3.2, mended. Where f >= L at x in the box, some positive ball j has x in its tight sphere. Ball i
@@ -105,21 +116,13 @@ static size_t discard(const work_set *set, work_node *node, uint32_t *list)
 
 size_t work_leaf(const work_set *set, work_node *node, uint32_t *list, work_block *block, size_t *discarded)
 {
-    (void)block;
-    const fbvh_options *o = &set->options;
-    bool fits = o->kind == FBVH_OVERLAPPING || !o->no_fit;
+    bool fitted = set->options.kind == FBVH_FITTED;
     *discarded = 0;
+    if (!(fitted ? sift_fitted(set, node, list, block) : sift_overlapping(set, node, list))) return 0;
+    if (!set->options.no_discard && node->count <= set->options.discard_most)
+        *discarded = discard(set, node, list);
     /* A smaller box leaves fewer balls, and those a smaller box: twice gets nearly all of it. */
-    for (int round = 0; round < 2; round++) {
-        if (round == 0 || o->kind == FBVH_FITTED) sift(set, node, list);
-        if (!node->count || node->span < 0) return 0;
-        if (fits && !fit(set, node, list)) return 0;
-        if (round == 0 && !o->no_discard && node->count <= o->discard_most) {
-            *discarded = discard(set, node, list);
-            if (!node->count) return 0;
-        }
-    }
-    if (o->kind == FBVH_OVERLAPPING)
-        for (size_t i = node->own; i < node->count; i++) list[i] |= FBVH_SPLIT;
+    if (fitted && !sift_fitted(set, node, list, block)) return 0;
+    for (size_t i = node->own; i < node->count; i++) list[i] |= FBVH_SPLIT;
     return node->count;
 }

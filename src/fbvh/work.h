@@ -21,8 +21,9 @@ enum { WORK_SPANS_AN_OCTAVE = 32, WORK_OCTAVES = 24, WORK_SPANS = WORK_SPANS_AN_
 #define WORK_WIDE
 #endif
 
-/* Balls side by side, for loops to take several at a time. */
-enum { WORK_BLOCK = 1024 };
+/* Balls side by side, for loops to take several at a time. Up to a multiple of WORK_LANES follow some of
+ * strength 0, too far off to reach anything. */
+enum { WORK_BLOCK = 1024, WORK_LANES = 8 };
 typedef struct work_block {
     size_t count;
     float at[3][WORK_BLOCK], radius[WORK_BLOCK], strength[WORK_BLOCK];
@@ -95,12 +96,31 @@ static inline float work_distance(const float lo[3], const float hi[3], const fl
 float work_span(const work_set *set, double sum);
 void work_span_fill(work_set *set, mns_kernel kernel);
 
+static inline int work_lanes(const work_block *block)
+{
+    return (int)((block->count + WORK_LANES - 1) & ~(size_t)(WORK_LANES - 1));
+}
+
 /* Fills the block with every `step`th ball of a list. */
 void work_gather(const work_set *set, const uint32_t *list, size_t count, size_t step, work_block *block);
 
 /* What work_choose sees of a node: a block of its balls, every `step`th. Small nodes lie in it whole (step
  * 1), and the later stages find them there. */
 size_t work_look(const work_set *set, const work_node *node, const uint32_t *list, work_block *block);
+
+/* What is found of balls that reach into a box: S+, and the box of the tight spheres that meet it. */
+typedef struct work_side {
+    size_t count; /* the caller's */
+    double sum;
+    float lo[3], hi[3];
+} work_side;
+
+work_side work_side_none(void);
+
+/* Which of a block's balls reach into the box lo, hi (taken: WORK_BLOCK of 0 or 1), and what they add to
+ * *side. */
+void work_take(const work_set *set, const work_block *block, const float lo[3], const float hi[3], float span,
+               unsigned char *taken, work_side *side);
 
 /* Where to cut (section 5.1.1). False: better, or only possible, a leaf; *bounded then says whether only the
  * bounds forbid a cut. */
