@@ -32,6 +32,8 @@ struct Ray {
 #ifdef FAR
 REAL view_reach;   // distance of the ray's start from o
 REAL view_excess;  // way from the eye to the ray's start, less the depth of the plane where rays begin
+#elif defined(TREE_DEPTH)
+#define view_reach level.w
 #else
 const REAL view_reach = NUM(0.0);
 #endif
@@ -59,6 +61,8 @@ Ray view_ray(vec2 pixel)
     REAL2 side = (NUM(2.0) * (REAL2(pixel) + depth.zw) / lens.zw - NUM(1.0)) / lens.xy;
     REAL tilt = dot(side, side);
     view_excess = depth.y * tilt / (sqrt(NUM(1.0) + tilt) + NUM(1.0));
+#elif defined(TREE_DEPTH)
+    ray.start = start.xyz; // a tree's origin stands still, the eye does not
 #else
     ray.start = REAL3(0.0);
 #endif

@@ -227,9 +227,16 @@ typedef enum mns_method {
     MNS_METHOD_AUTO = 0,
     MNS_METHOD_LIST,
     MNS_METHOD_REFERENCE, /* on the CPU, certified: mns_reference; its solver is always exact */
-    MNS_METHOD_TILE       /* the list's cast over lists a tile of pixels long, binned on the CPU */
+    MNS_METHOD_TILE,      /* the list's cast over lists a tile of pixels long, binned on the CPU */
+    MNS_METHOD_FBVH, /* a fitted tree of boxes, built on the CPU, traced on the GPU (Gourmel et al. 2010) */
+    MNS_METHOD_BVH   /* its baseline: a tree whose leaves overlap */
 } mns_method;
-typedef enum mns_solver { MNS_SOLVER_EXACT = 0, MNS_SOLVER_CUBIC, MNS_SOLVER_CUBIC_MONOMIAL } mns_solver;
+typedef enum mns_solver {
+    MNS_SOLVER_EXACT = 0,
+    MNS_SOLVER_CUBIC,          /* of list and tile */
+    MNS_SOLVER_CUBIC_MONOMIAL, /* of list and tile */
+    MNS_SOLVER_SECANT          /* of fbvh and bvh: as published, not certified */
+} mns_solver;
 typedef enum mns_gather { MNS_GATHER_EARLY_Z = 0, MNS_GATHER_PAPER } mns_gather;
 
 typedef struct mns_options {
@@ -240,6 +247,9 @@ typedef struct mns_options {
                      64 */
     bool moved;   /* every position changed since the last draw: reuse nothing */
     bool measure; /* fill the phases' times (each closed by glFinish) and the lengths of the lists */
+    const char *tree; /* how fbvh and bvh are built: "no-fit,cost-n,..." (README); borrowed for the call */
+    int secant_steps; /* most steps of the solver secant; 0: 16 */
+    bool counters;    /* of fbvh and bvh: count a ray's work, see mns_image.work and mns_stats */
     size_t max_pool_nodes; /* 0: what the driver allows; fewer makes the frame be drawn in more tiles */
     /* For tests and diagnosis: each drives a path that ordinary scenes seldom take; the picture stays right.
      */
@@ -283,8 +293,8 @@ MNS_API uint64_t mns_plan_features(const mns_plan *plan);
 /* Passes in order ("core_depth", "gather", ...); *count of them. */
 MNS_API const char *const *mns_plan_passes(const mns_plan *plan, size_t *count);
 MNS_API const mns_left_out *mns_plan_left_out(const mns_plan *plan, size_t *count);
-/* What of the input lies outside the stated domain (docs/domain.md), a line a limit: it is drawn all the same,
- * but without the promises of the exact solver. *count of them, 0 for most inputs. */
+/* What of the input lies outside the stated domain (docs/domain.md), a line a limit: it is drawn all the
+ * same, but without the promises of the exact solver. *count of them, 0 for most inputs. */
 MNS_API const char *const *mns_plan_warnings(const mns_plan *plan, size_t *count);
 /* The whole plan as text of several lines, as --explain prints it. Lives as long as the plan. */
 MNS_API const char *mns_plan_text(const mns_plan *plan);
@@ -348,6 +358,14 @@ MNS_API void mns_frame_destroy(mns_frame *frame);
 MNS_API mns_status mns_renderer_draw(mns_renderer *renderer, const mns_field *field, const mns_view *view,
                                      const mns_look *look, const mns_options *options, mns_frame *frame,
                                      mns_error *error);
+
+/* Begins what the next draw of `field` by these options can have made ahead, on a thread of its own: the tree
+ * of fbvh and bvh; of other methods nothing. Call it before the draw of the frame before, so that the tree is
+ * built while that frame is drawn (Gourmel et al. 2010, figure 7). The field must stay as it is until it is
+ * drawn, or the renderer is destroyed. A field prepared and then drawn with options.moved is not built again.
+ * Errors: USAGE, MEMORY; what building comes to is told by the draw. */
+MNS_API mns_status mns_renderer_prepare(mns_renderer *renderer, const mns_field *field,
+                                        const mns_options *options, mns_error *error);
 
 /* A host's framebuffer, drawn on with the usual perspective depth in [0, 1]. */
 typedef struct mns_target {

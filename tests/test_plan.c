@@ -25,6 +25,7 @@
 #define SOFTWARE  (POINTS | FEATURE_CLIP_ZERO | FEATURE_TEXELS | SPECULAR) /* of llvmpipe */
 
 #define PLAIN_PASSES "sort upload gather cast resolve shade"
+#define TREE_PASSES  "build upload trace resolve shade"
 #define CORE_PASSES  "sort upload core_depth gather cast resolve shade"
 
 static const scene scenes[] = {
@@ -107,6 +108,21 @@ static const scene scenes[] = {
     {"columns that nobody asks for", .generator = "molecule:50", .limits = &scene_llvmpipe,
      .features = POLY3 | RADII | CORE | SOFTWARE | QUADS, .passes = CORE_PASSES,
      .left_out = "colours of balls: one colour for all"},
+    {"a tree, the least driver", .desc = {SCENE_UNIT}, .options = {.method = MNS_METHOD_FBVH},
+     .features = POLY3 | FEATURE_TREE | FEATURE_TEXELS | SPECULAR, .passes = TREE_PASSES,
+     .left_out = "gather: rays are traced through a tree"},
+    {"a tree of overlapping leaves, llvmpipe", .generator = "mixed:1000", .limits = &scene_llvmpipe,
+     .options = {.method = MNS_METHOD_BVH},
+     .features = POLY3 | RADII | FEATURE_TREE | FEATURE_OVERLAPS | FEATURE_TEXELS | SPECULAR,
+     .passes = TREE_PASSES, .left_out = "counts of a ray's work: nobody asks for them"},
+    {"a tree that buffer textures do not hold", .generator = "scattered:10000",
+     .options = {.method = MNS_METHOD_FBVH}, .features = POLY3 | FEATURE_TREE | FEATURE_FAR | SPECULAR,
+     .passes = TREE_PASSES, .left_out = "reading by texels: this driver's buffer textures are too small"},
+    {"a tree, secants, counted", .desc = {SCENE_UNIT}, SCENE_EYE(0, 0, 0.1),
+     .options = {.method = MNS_METHOD_FBVH, .solver = MNS_SOLVER_SECANT, .counters = true},
+     .features = POLY3 | (unsigned)MNS_SOLVER_SECANT << 3 | IN_BALL | FEATURE_EYE_INSIDE | FEATURE_TREE |
+                 FEATURE_TEXELS | FEATURE_COUNTERS | SPECULAR,
+     .passes = TREE_PASSES, .left_out = "certification: the solver is not certified"},
     {"cel", .desc = {SCENE_UNIT}, .look = {.shading = MNS_SHADING_CEL},
      .features = POLY3 | CORE | LEAST | FEATURE_CEL, .passes = CORE_PASSES},
     {"a directional light", .desc = {SCENE_UNIT}, .look = {.light = MNS_LIGHT_DIRECTIONAL},
@@ -235,7 +251,7 @@ static void what_is_not_there_is_left_out(void **state)
             if (is_left_out(plan, parts[k].part) == !!(plan->features & parts[k].feature))
                 fail_msg("%s: %s", scenes[i].name, parts[k].part);
         assert_true(is_left_out(plan, "certification") == !!(plan->features & FEATURE_SOLVER));
-        assert_true(is_left_out(plan, "FBVH"));
+        assert_true(is_left_out(plan, "FBVH") == !(plan->features & FEATURE_TREE));
         mns_plan_destroy(plan);
         mns_field_destroy(field);
     }

@@ -25,6 +25,9 @@ static const char *const shader_names[SHADER_COUNT] = {
     [SHADER_CAST] = "cast",
     [SHADER_WALK] = "walk",
     [SHADER_RESOLVE] = "resolve",
+    [SHADER_TREE] = "tree",
+    [SHADER_TREE_WALK] = "tree-walk",
+    [SHADER_TREE_RESOLVE] = "tree-resolve",
     [SHADER_SHADE] = "shade",
     [SHADER_HOST_DEPTH] = "host-depth",
     [SHADER_HOST_DRAW] = "host-draw",
@@ -89,7 +92,7 @@ static void write_variant(texts *t, plan_shader shader, const mns_plan *plan)
 
 /* Which triples of settings some written variant has had: a setting is a feature that is there or not, a
  * kernel, a solver. */
-enum { SETTINGS = 6 + 3 + 2 * (FEATURE_COUNT - 5) };
+enum { SETTINGS = 6 + 4 + 2 * (FEATURE_COUNT - 5) };
 typedef struct triples {
     bool seen[SETTINGS][SETTINGS][SETTINGS];
 } triples;
@@ -101,7 +104,7 @@ static size_t settings_of(uint64_t reads, uint64_t features, size_t setting[FEAT
     if (reads & FEATURE_KERNEL) setting[count++] = (features & FEATURE_KERNEL) - 1;
     if (reads & FEATURE_SOLVER) setting[count++] = 6 + ((features & FEATURE_SOLVER) >> 3);
     for (size_t bit = 5; bit < FEATURE_COUNT; bit++)
-        if (reads >> bit & 1) setting[count++] = 9 + 2 * (bit - 5) + (features >> bit & 1);
+        if (reads >> bit & 1) setting[count++] = 10 + 2 * (bit - 5) + (features >> bit & 1);
     return count;
 }
 

@@ -174,35 +174,49 @@ static mns_status option_shininess(app_options *o, const char *name, const char 
 
 static const char *method_name(int i)
 {
-    static const char *const names[] = {"auto", "list", "reference", "tile"};
+    static const char *const names[] = {"auto", "list", "reference", "tile", "fbvh", "bvh"};
     return names[i];
 }
 
 mns_status option_method(app_options *o, const char *name, const char *text, mns_error *error)
 {
-    static const char *const absent[] = {"fbvh", "bvh"};
-    for (size_t i = 0; i < sizeof absent / sizeof *absent; i++)
-        if (strcmp(text, absent[i]) == 0)
-            return app_fail(error, MNS_ERROR_USAGE,
-                            "%s %s: not in this build; expected auto, list, tile or reference", name, text);
     int index;
-    mns_status status = parse_name(name, text, method_name, MNS_METHOD_TILE + 1, &index, error);
+    mns_status status = parse_name(name, text, method_name, MNS_METHOD_BVH + 1, &index, error);
     if (!status) o->draw.method = (mns_method)index;
     return status;
 }
 
 static const char *solver_name(int i)
 {
-    static const char *const names[] = {"exact", "cubic", "cubic-monomial"};
+    static const char *const names[] = {"exact", "cubic", "cubic-monomial", "secant"};
     return names[i];
 }
 
 mns_status option_solver(app_options *o, const char *name, const char *text, mns_error *error)
 {
     int index;
-    mns_status status = parse_name(name, text, solver_name, MNS_SOLVER_CUBIC_MONOMIAL + 1, &index, error);
+    mns_status status = parse_name(name, text, solver_name, MNS_SOLVER_SECANT + 1, &index, error);
     if (!status) o->draw.solver = (mns_solver)index;
     return status;
+}
+
+static mns_status option_tree(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    (void)name, (void)error;
+    o->draw.tree = text;
+    return MNS_OK;
+}
+
+static mns_status option_secant_steps(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_count(name, text, 4096, &o->draw.secant_steps, error);
+}
+
+static mns_status option_counters(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    (void)name, (void)text, (void)error;
+    o->draw.counters = true;
+    return MNS_OK;
 }
 
 static const char *gather_name(int i)
@@ -353,9 +367,17 @@ static const option_row ROWS[] = {
     HEADING("Method:"),
     {"method", 0, "NAME",
      "auto (the default: the plan picks), list, tile (lists a tile of pixels long, binned on the CPU: "
-     "quicker on a software renderer) or reference (slow, on the CPU, certified)",
+     "quicker on a software renderer), fbvh (a tree of boxes fitted to the balls), bvh (one whose leaves "
+     "overlap) "
+     "or reference (slow, on the CPU, certified)",
      option_method},
-    {"solver", 0, "NAME", "exact (the default), cubic or cubic-monomial", option_solver},
+    {"solver", 0, "NAME",
+     "exact (the default); of list and tile: cubic or cubic-monomial; of fbvh and bvh: secant",
+     option_solver},
+    {"secant-steps", 0, "N", "most steps of the solver secant (default 16)", option_secant_steps},
+    {"tree", 0, "LIST",
+     "how fbvh and bvh are built: cost-n, no-fit, no-tight, no-discard, leaf-least=N, ... (README)",
+     option_tree},
     {"gather", 0, "NAME", "early-z (the default) or paper, the passes as published", option_gather},
     {"backend", 0, "NAME", "auto (the default: the first that starts), egl, osmesa or glfw", option_backend},
     {"threads", 0, "N", "threads on the CPU (default: one a core)", option_threads},
@@ -363,6 +385,10 @@ static const option_row ROWS[] = {
     {"stats", 0, "FILE.json", "write times, counts, and what was left out", option_stats},
     {"repeat", 0, "N", "draw each frame N times; --stats gets the first and the median", option_repeat},
     {"moving", 0, NULL, "take every position as changed before each draw: nothing is reused", option_moving},
+    {"counters", 0, NULL,
+     "of fbvh and bvh: count a ray's work; --stats gets the means, --aov and -o FILE.exr channels of their "
+     "own",
+     option_counters},
     {"explain", 0, NULL, "print the plan and stop", option_explain},
     HEADING("Tests and diagnosis (slower; the image stays right):"),
     {"pool", 0, "N", "at most N list nodes at once; the frame is cut into tiles to fit", option_pool},

@@ -26,13 +26,19 @@ static const known_method METHODS[] = {
     {"tile", "exact", MNS_METHOD_TILE, MNS_SOLVER_EXACT},
     {"tile", "cubic", MNS_METHOD_TILE, MNS_SOLVER_CUBIC},
     {"tile", "cubic-monomial", MNS_METHOD_TILE, MNS_SOLVER_CUBIC_MONOMIAL},
+    {"fbvh", "exact", MNS_METHOD_FBVH, MNS_SOLVER_EXACT},
+    {"fbvh", "secant", MNS_METHOD_FBVH, MNS_SOLVER_SECANT},
+    {"bvh", "exact", MNS_METHOD_BVH, MNS_SOLVER_EXACT},
+    {"bvh", "secant", MNS_METHOD_BVH, MNS_SOLVER_SECANT},
     {"reference", "exact", MNS_METHOD_REFERENCE, MNS_SOLVER_EXACT},
 };
 enum { METHOD_COUNT = sizeof METHODS / sizeof *METHODS };
 
 /* What is run where nothing is asked for: all but the truth itself, and the passes as published. */
 static const char DEFAULT_RUNS[] =
-    "list:exact,list:cubic,list:cubic-monomial,list:exact:gather=paper,tile:exact,tile:cubic";
+    "list:exact,list:cubic,list:cubic-monomial,list:exact:gather=paper,tile:exact,tile:cubic,"
+    "fbvh:exact,bvh:exact,fbvh:secant:secant-steps=2,fbvh:secant:secant-steps=4,fbvh:secant:secant-steps=8,"
+    "fbvh:secant";
 
 typedef struct known_key {
     const char *key;
@@ -66,15 +72,24 @@ static void set_pool(mns_options *options, long value)
     options->max_pool_nodes = (size_t)value;
 }
 
+static void set_secant_steps(mns_options *options, long value)
+{
+    options->secant_steps = (int)value;
+}
+
 static void set_samples(mns_options *options, long value)
 {
     options->samples = (int)value;
 }
 
 static const known_key KEYS[] = {
-    {"gather", 0, {"early-z", "paper"}, set_gather}, {"slots", 1024, {NULL}, set_slots},
-    {"root-steps", 4096, {NULL}, set_root_steps},    {"shuffle", UINT32_MAX, {NULL}, set_shuffle},
-    {"pool", INT32_MAX, {NULL}, set_pool},           {"aa", 64, {NULL}, set_samples},
+    {"gather", 0, {"early-z", "paper"}, set_gather},
+    {"slots", 1024, {NULL}, set_slots},
+    {"root-steps", 4096, {NULL}, set_root_steps},
+    {"shuffle", UINT32_MAX, {NULL}, set_shuffle},
+    {"pool", INT32_MAX, {NULL}, set_pool},
+    {"aa", 64, {NULL}, set_samples},
+    {"secant-steps", 4096, {NULL}, set_secant_steps},
 };
 enum { KEY_COUNT = sizeof KEYS / sizeof *KEYS };
 

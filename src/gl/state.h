@@ -5,9 +5,9 @@
 #include "gl/device.h"
 
 enum {
-    STATE_TEXTURES = 4,
-    STATE_IMAGES = 4,
-    STATE_STORAGE = 5,
+    STATE_TEXTURES = 6,
+    STATE_IMAGES = 5,
+    STATE_STORAGE = 7,
     STATE_UNIFORMS = 2,
     STATE_SWITCHES = 24,
     STATE_PACK = 5

@@ -56,7 +56,7 @@ static mns_status buffers(list_passes *p, gl_device *device, const mns_plan *pla
         {&p->nodes, "node pool", plan->pool_nodes * LIST_NODE},
         {&p->counter, "node counter", sizeof(uint32_t)},
     };
-    size_t count = plan->features & FEATURE_TILES ? 2 : sizeof wanted / sizeof *wanted;
+    size_t count = plan->features & (FEATURE_TILES | FEATURE_TREE) ? 2 : sizeof wanted / sizeof *wanted;
     for (size_t i = 0; i < count; i++) {
         mns_status status =
             gl_buffer_reserve(device, wanted[i].buffer, wanted[i].what, wanted[i].size, block, error);
@@ -71,7 +71,7 @@ mns_status list_passes_prepare(list_passes *p, gl_device *device, const mns_plan
 {
     const GladGLContext *gl = &device->gl;
     int width = plan->frame.width, height = plan->frame.height;
-    bool tiles = plan->features & FEATURE_TILES, host = plan->features & FEATURE_HOST;
+    bool tiles = plan->features & (FEATURE_TILES | FEATURE_TREE), host = plan->features & FEATURE_HOST;
     bool depth = !tiles && plan->features & (FEATURE_CORE | FEATURE_HOST);
     bool resized = width != p->width || height != p->height;
     if (!p->vertex_array) gl->GenVertexArrays(1, &p->vertex_array);
@@ -129,7 +129,9 @@ mns_status list_passes_compile(gl_device *device, gl_programs *programs, const m
         gl_shader shader = {.defines = defines};
         program[i] = 0;
         /* What only some pixels or balls may need is compiled when they do. */
-        if (!plan_needs(plan, i) || i == SHADER_WALK || i == SHADER_RESOLVE || i == SHADER_ORDER) continue;
+        if (!plan_needs(plan, i) || i == SHADER_WALK || i == SHADER_RESOLVE || i == SHADER_ORDER ||
+            i == SHADER_TREE_WALK || i == SHADER_TREE_RESOLVE)
+            continue;
         plan_shader_files(i, &shader.vertex, &shader.fragment, &shader.compute);
         plan_shader_defines(plan, i, defines);
         mns_status status = gl_program_get(device, programs, &shader, &program[i], error);

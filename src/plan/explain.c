@@ -8,24 +8,30 @@ static const char *const feature_names[FEATURE_COUNT] = {
     [10] = "points",      [11] = "quads",     [12] = "eye_in_ball", [13] = "eye_inside", [14] = "far",
     [15] = "host",        [16] = "shuffle",   [17] = "colors",      [18] = "labels",     [19] = "cel",
     [20] = "directional", [21] = "specular",  [22] = "samples",     [23] = "clip_zero",  [24] = "texels",
-    [25] = "flat_cores",  [26] = "reference", [27] = "tiles",
+    [25] = "flat_cores",  [26] = "reference", [27] = "tiles",       [28] = "tree",       [29] = "overlaps",
+    [30] = "counters",
 };
 
-static const char *const solver_names[] = {"exact", "cubic", "cubic-monomial"};
+static const char *const solver_names[] = {"exact", "cubic", "cubic-monomial", "secant"};
 
 static void print_plan(FILE *out, const mns_plan *plan, const mns_field *field)
 {
     const mns_view *v = &plan->view;
     bool traced = plan->features & FEATURE_REFERENCE;
     fprintf(out, "method %s (%s), solver %s, kernel %s, L %g\n",
-            traced                           ? "reference"
-            : plan->features & FEATURE_TILES ? "tile"
-                                             : "list",
+            traced                              ? "reference"
+            : plan->features & FEATURE_OVERLAPS ? "bvh"
+            : plan->features & FEATURE_TREE     ? "fbvh"
+            : plan->features & FEATURE_TILES    ? "tile"
+                                                : "list",
             plan->method_reason, solver_names[plan->options.solver], mns_kernel_name(field->kernel),
             field->iso);
     fprintf(out, "frame %dx%d, eye %g,%g,%g, look-at %g,%g,%g, fov %g\n", v->width, v->height, v->eye[0],
             v->eye[1], v->eye[2], v->look_at[0], v->look_at[1], v->look_at[2], v->fov);
-    if (traced)
+    if (plan->features & FEATURE_TREE)
+        fprintf(out, "balls %zu, %zu floats each; f(eye) %g; at most %g references a ball\n", field->p.count,
+                plan->ball_floats, plan->facts.eye_value, plan->tree.references_a_ball);
+    else if (traced)
         fprintf(out, "balls %zu; f(eye) %g\n", field->p.count, plan->facts.eye_value);
     else
         fprintf(out, "balls %zu, %zu floats each; f(eye) %g; node pool %zu, at most %zu\n", field->p.count,

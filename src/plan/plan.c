@@ -30,16 +30,30 @@ void plan_leave_out(mns_plan *plan, const char *part, const char *reason)
 
 static mns_status check_options(const mns_options *options, mns_error *error)
 {
-    if ((unsigned)options->method > MNS_METHOD_TILE)
+    bool tree = options->method == MNS_METHOD_FBVH || options->method == MNS_METHOD_BVH;
+    if ((unsigned)options->method > MNS_METHOD_BVH)
         return status_fail(error, MNS_ERROR_USAGE,
-                           "options: method %d is not in this build; take list, tile or reference",
+                           "options: method %d is not in this build; take list, tile, fbvh, bvh or reference",
                            options->method);
     if (options->method == MNS_METHOD_REFERENCE && options->solver != MNS_SOLVER_EXACT)
         return status_fail(error, MNS_ERROR_USAGE,
                            "options: solver %d of the reference; reference has one solver: exact",
                            options->solver);
-    if ((unsigned)options->solver > MNS_SOLVER_CUBIC_MONOMIAL)
+    if ((unsigned)options->solver > MNS_SOLVER_SECANT)
         return status_fail(error, MNS_ERROR_USAGE, "options: no solver %d", options->solver);
+    if (options->solver != MNS_SOLVER_EXACT && tree != (options->solver == MNS_SOLVER_SECANT))
+        return status_fail(error, MNS_ERROR_USAGE, "options: solver %d of this method; take exact%s",
+                           options->solver, tree ? " or secant" : ", cubic or cubic-monomial");
+    if (options->secant_steps < 0 || options->secant_steps > 4096)
+        return status_fail(error, MNS_ERROR_USAGE, "options: %d secant steps; take 1 to 4096",
+                           options->secant_steps);
+    if (options->counters && !tree)
+        return status_fail(error, MNS_ERROR_USAGE, "options: only fbvh and bvh count a ray's work");
+    if (options->tree && *options->tree && !tree)
+        return status_fail(error, MNS_ERROR_USAGE, "options: only fbvh and bvh build a tree");
+    if (tree && (options->gather != MNS_GATHER_EARLY_Z || options->shuffle))
+        return status_fail(error, MNS_ERROR_USAGE,
+                           "options: a tree is not gathered: leave gather and shuffle, or take list");
     if ((unsigned)options->gather > MNS_GATHER_PAPER)
         return status_fail(error, MNS_ERROR_USAGE, "options: no gather %d", options->gather);
     if (options->method == MNS_METHOD_TILE && (options->gather != MNS_GATHER_EARLY_Z || options->shuffle))
@@ -76,14 +90,15 @@ static void resolve_options(const mns_options *options, mns_plan *plan)
     *o = options ? *options : (mns_options){0};
     if (o->method == MNS_METHOD_AUTO) o->method = MNS_METHOD_LIST;
     if (!o->samples) o->samples = 1;
-    if (!o->slots) o->slots = plan->limits.is_software ? 64 : 24;
+    if (!o->slots) o->slots = plan->limits.is_software || o->method >= MNS_METHOD_FBVH ? 64 : 24;
     if (!o->root_steps) o->root_steps = 48;
+    if (!o->secant_steps) o->secant_steps = 16;
     plan->method_reason = options && options->method != MNS_METHOD_AUTO
                               ? "asked for"
                               : "auto: the method that draws on the GPU";
 }
 
-static void plan_balls(mns_plan *plan, const mns_field *field)
+void plan_balls(mns_plan *plan, const mns_field *field)
 {
     if (field->p.radius)
         plan->features |= FEATURE_RADII;
@@ -97,10 +112,11 @@ static void plan_balls(mns_plan *plan, const mns_field *field)
         3 + (plan->features & FEATURE_RADII ? 1 : 0) + (plan->features & FEATURE_STRENGTHS ? 1 : 0);
 }
 
-static void plan_eye(mns_plan *plan, const mns_field *field)
+void plan_eye(mns_plan *plan, const mns_field *field)
 {
     const plan_facts *facts = &plan->facts;
-    vec3 origin = plan->frame.eye;
+    const view_frame *frame = &plan->frame;
+    vec3 origin = frame->eye;
     if (facts->eye_in_ball)
         plan->features |= FEATURE_EYE_IN_BALL;
     else
@@ -116,10 +132,17 @@ static void plan_eye(mns_plan *plan, const mns_field *field)
     } else {
         plan_leave_out(plan, "rays that begin at the box", "the eye is within 30 radii of the field's box");
     }
+    if (plan->features & FEATURE_TREE) { /* stands still, so that the tree does */
+        for (int axis = 0; axis < 3; axis++)
+            plan->origin[axis] =
+                field->p.count ? field->lo[axis] + 0.5 * (field->hi[axis] - field->lo[axis]) : 0;
+        origin = vec3_load(plan->origin);
+        plan->reach = vec3_length(vec3_sub(frame->eye, origin));
+        if (plan->features & FEATURE_FAR) plan->reach = 0;
+    }
     vec3_store(plan->origin, origin);
     plan->depth_range = fmax(facts->farthest - plan->plane_depth, 1e-300) * 1.0001;
     /* A little beyond the frame's corners: samples are jittered by up to a pixel. */
-    const view_frame *frame = &plan->frame;
     double up = plan->plane_depth * frame->tan_half * (1 + 2.0 / frame->height);
     double across = up * (frame->width + 2.0) / frame->height;
     for (int corner = 0; corner < 4 && plan->features & FEATURE_FAR; corner++) {
@@ -276,7 +299,7 @@ static mns_status check_size(const mns_plan *plan, mns_error *error)
     return MNS_OK;
 }
 
-static mns_status check_limits(const mns_plan *plan, const mns_field *field, mns_error *error)
+mns_status plan_check_limits(const mns_plan *plan, const mns_field *field, mns_error *error)
 {
     const mns_limits *limits = &plan->limits;
     const double smallest = 1e-15, largest = 1e15; /* what floats can square, and the square again */
@@ -302,7 +325,7 @@ static mns_status plan_list(mns_plan *plan, const mns_field *field, bool host, m
         plan_tiles(plan);
     else
         plan_billboards(plan, field);
-    mns_status status = check_limits(plan, field, error);
+    mns_status status = plan_check_limits(plan, field, error);
     if (status) return status;
     plan_rest(plan, field->p.count, host);
     plan_passes(plan);
@@ -330,7 +353,9 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
     if (!status) status = check_size(plan, error);
     if (!status)
         status = plan->options.method == MNS_METHOD_REFERENCE ? plan_reference(plan, field, host, error)
+                 : plan->options.method >= MNS_METHOD_FBVH    ? plan_trees(plan, field, host, error)
                                                               : plan_list(plan, field, host, error);
+    plan->options.tree = NULL; /* was borrowed for the call */
     if (status) goto fail;
     if (!plan_explain(plan, field)) {
         status = status_no_memory(error, "while planning a frame");

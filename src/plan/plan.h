@@ -3,7 +3,7 @@
 #ifndef MNS_PLAN_PLAN_H
 #define MNS_PLAN_PLAN_H
 
-#include "field/field.h"
+#include "fbvh/fbvh.h"
 #include "plan/domain.h"
 #include "scene/view.h"
 
@@ -34,7 +34,10 @@ enum plan_feature {
     FEATURE_FLAT_CORES = 1 << 25, /* core spheres laid down as flat squares, without a fragment shader */
     FEATURE_REFERENCE = 1 << 26,  /* traced on the CPU; nothing but colours is left to GL */
     FEATURE_TILES = 1 << 27,      /* lists a tile of pixels long, binned on the CPU */
-    FEATURE_COUNT = 28
+    FEATURE_TREE = 1 << 28,       /* traced through a tree of boxes */
+    FEATURE_OVERLAPS = 1 << 29,   /* whose leaves overlap */
+    FEATURE_COUNTERS = 1 << 30,   /* a ray's work is counted */
+    FEATURE_COUNT = 31
 };
 
 enum { PLAN_MOST = 16 }; /* passes; parts left out are at most PLAN_PARTS */
@@ -74,6 +77,7 @@ struct mns_plan {
     size_t ball_floats; /* a ball in the GPU's buffer */
     size_t pool_nodes;  /* to begin with */
     size_t pool_most;   /* allowed */
+    fbvh_options tree;  /* where TREE */
     const char *method_reason;
     char color_by[64];
     domain_report domain; /* what of the input lies outside the stated domain */
@@ -96,6 +100,19 @@ void plan_leave_out(mns_plan *plan, const char *part, const char *reason);
 /* What belongs to any method: samples and looks. */
 void plan_look_left_out(mns_plan *plan);
 
+/* Radius and strength a ball; the eye, the origin of coordinates, where rays begin. */
+void plan_balls(mns_plan *plan, const mns_field *field);
+void plan_eye(mns_plan *plan, const mns_field *field);
+/* Whether a frame of this size, and lengths such as these, can be drawn. Errors: UNSUPPORTED. */
+mns_status plan_check_limits(const mns_plan *plan, const mns_field *field, mns_error *error);
+
+/* How a tree is built for a driver. Errors: USAGE. */
+mns_status plan_tree_options(const mns_options *options, const mns_limits *limits, fbvh_options *tree,
+                             mns_error *error);
+/* Features, passes and what is left out of a frame that is traced through a tree. Errors: USAGE, UNSUPPORTED.
+ */
+mns_status plan_trees(mns_plan *plan, const mns_field *field, bool host, mns_error *error);
+
 /* Features, passes and what is left out of a frame that the reference traces. Errors: UNSUPPORTED. */
 mns_status plan_reference(mns_plan *plan, const mns_field *field, bool host, mns_error *error);
 
@@ -113,6 +130,9 @@ typedef enum plan_shader {
     SHADER_CAST,
     SHADER_WALK,    /* resolve.glsl in float */
     SHADER_RESOLVE, /* and in doubles */
+    SHADER_TREE,
+    SHADER_TREE_WALK,    /* fbvh_resolve.glsl in float */
+    SHADER_TREE_RESOLVE, /* and in doubles */
     SHADER_SHADE,
     SHADER_HOST_DEPTH,
     SHADER_HOST_DRAW,

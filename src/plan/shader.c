@@ -12,6 +12,7 @@ enum {
     READS_BALL = FEATURE_KERNEL | FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_FAR,
     READS_RAY = READS_BALL | FEATURE_SOLVER | FEATURE_EYE_INSIDE | FEATURE_HOST | FEATURE_COLORS |
                 FEATURE_LABELS | FEATURE_TEXELS | FEATURE_TILES,
+    READS_TREE = (READS_RAY | FEATURE_OVERLAPS) & ~(FEATURE_SOLVER | FEATURE_TEXELS | FEATURE_TILES),
     READS_BILLBOARD = FEATURE_RADII | FEATURE_FAR | FEATURE_CLIP_ZERO,
 };
 
@@ -31,6 +32,10 @@ static const shader_part parts[SHADER_COUNT] = {
     [SHADER_CAST] = {"screen.vert.glsl", "cast.glsl", NULL, READS_RAY},
     [SHADER_WALK] = {NULL, NULL, "resolve.glsl", READS_RAY & ~(uint64_t)(FEATURE_SOLVER | FEATURE_TEXELS)},
     [SHADER_RESOLVE] = {NULL, NULL, "resolve.glsl", READS_RAY & ~(uint64_t)(FEATURE_SOLVER | FEATURE_TEXELS)},
+    [SHADER_TREE] = {NULL, NULL, "fbvh.glsl",
+                     READS_TREE | FEATURE_SOLVER | FEATURE_TEXELS | FEATURE_COUNTERS},
+    [SHADER_TREE_WALK] = {NULL, NULL, "fbvh_resolve.glsl", READS_TREE},
+    [SHADER_TREE_RESOLVE] = {NULL, NULL, "fbvh_resolve.glsl", READS_TREE},
     [SHADER_SHADE] = {"screen.vert.glsl", "shade.frag.glsl", NULL,
                       FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_DIRECTIONAL | FEATURE_SPECULAR},
     [SHADER_HOST_DEPTH] = {"screen.vert.glsl", "host_depth.frag.glsl", NULL, FEATURE_FAR},
@@ -71,6 +76,8 @@ static void add_features(char *defines, uint64_t f)
         {FEATURE_CLIP_ZERO, "CLIP_ZERO_TO_ONE"},
         {FEATURE_TEXELS, "BALL_TEXELS"},
         {FEATURE_TILES, "TILES"},
+        {FEATURE_OVERLAPS, "OVERLAPS"},
+        {FEATURE_COUNTERS, "COUNTERS"},
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (f & names[i].bit) add(defines, names[i].name, 1);
@@ -82,20 +89,29 @@ static void add_features(char *defines, uint64_t f)
  * below a cut by lanes however different. */
 enum { CAST_BUDGET = 24000, WALK_BUDGET = 5000 };
 
+static bool is_tree(plan_shader shader)
+{
+    return shader == SHADER_TREE || shader == SHADER_TREE_WALK || shader == SHADER_TREE_RESOLVE;
+}
+
 /* Numbers that a walk along a ray is specialised by. */
 static void add_ray(const mns_plan *plan, plan_shader shader, char *defines, uint64_t f)
 {
     add(defines, "KERNEL", (int)(f & FEATURE_KERNEL));
     add(defines, "SIDE", f & FEATURE_EYE_INSIDE ? 1 : -1);
-    add(defines, "WALK_BUDGET", shader == SHADER_CAST ? CAST_BUDGET : WALK_BUDGET);
-    if (shader == SHADER_RESOLVE) add(defines, "MNS_DOUBLE", 1);
-    if (shader != SHADER_CAST) {
+    add(defines, "WALK_BUDGET", shader == SHADER_CAST || shader == SHADER_TREE ? CAST_BUDGET : WALK_BUDGET);
+    if (is_tree(shader)) add(defines, "TREE_DEPTH", FBVH_DEPTH_MOST + 1);
+    if (shader == SHADER_RESOLVE || shader == SHADER_TREE_RESOLVE) add(defines, "MNS_DOUBLE", 1);
+    if (shader != SHADER_CAST && shader != SHADER_TREE) {
         add(defines, "REDO_GROUP", RESOLVE_GROUP);
         add(defines, "RESOLVE_STEPS", 200);
         return;
     }
     add(defines, "SOLVER_EXACT", MNS_SOLVER_EXACT);
-    add(defines, "SOLVER_CUBIC", MNS_SOLVER_CUBIC);
+    if (is_tree(shader))
+        add(defines, "SOLVER_SECANT", MNS_SOLVER_SECANT);
+    else
+        add(defines, "SOLVER_CUBIC", MNS_SOLVER_CUBIC);
     add(defines, "SOLVER", (int)((f & FEATURE_SOLVER) >> 3));
     add(defines, "SLOTS", plan->options.slots);
     add(defines, "ROOT_STEPS", plan->options.root_steps);
@@ -105,7 +121,7 @@ void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[
 {
     uint64_t f = plan->features & parts[shader].reads;
     defines[0] = '\0';
-    if (shader == SHADER_CAST || shader == SHADER_WALK || shader == SHADER_RESOLVE)
+    if (shader == SHADER_CAST || shader == SHADER_WALK || shader == SHADER_RESOLVE || is_tree(shader))
         add_ray(plan, shader, defines, f);
     if (shader == SHADER_CORE_QUADS || shader == SHADER_CORE_POINTS) {
         add(defines, "CORE_SPHERE", 1);
@@ -126,6 +142,8 @@ bool plan_needs(const mns_plan *plan, plan_shader shader)
 {
     uint64_t f = plan->features;
     if (f & FEATURE_REFERENCE) return shader == SHADER_SHADE;
+    if (is_tree(shader)) return f & FEATURE_TREE;
+    if (f & FEATURE_TREE && shader < SHADER_TREE) return false;
     if (f & FEATURE_TILES && shader < SHADER_SHUFFLE) return false;
     switch (shader) {
     case SHADER_CORE_QUADS:

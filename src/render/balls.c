@@ -103,12 +103,19 @@ mns_status draw_balls_upload(draw *d, mns_error *error)
     return status;
 }
 
-mns_status draw_low_upload(draw *d, mns_error *error)
+mns_status draw_wide_view(draw *d, mns_error *error)
 {
     list_passes *p = &d->r->passes;
     mns_status status = gl_buffer_reserve(&d->r->device, &p->view_wide, "view", sizeof d->wide, 0, error);
+    if (!status) draw_send(d, &p->view_wide, d->wide, sizeof d->wide);
+    return status;
+}
+
+mns_status draw_low_upload(draw *d, mns_error *error)
+{
+    list_passes *p = &d->r->passes;
+    mns_status status = draw_wide_view(d, error);
     if (status) return status;
-    draw_send(d, &p->view_wide, d->wide, sizeof d->wide);
     if (d->r->last.low) return MNS_OK;
     draw_mark(d, MNS_PHASE_CAST);
     status = upload(d, &p->balls_low, "balls", d->plan->ball_floats, 1, error);

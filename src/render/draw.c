@@ -45,17 +45,21 @@ static void set_view(draw *d, const double jitter[2])
     draw_send(d, &d->r->passes.far_block, far_block, sizeof far_block);
 }
 
-/* A program that only some frames come to need: compiled when one does. */
-static mns_status late_program(draw *d, plan_shader which, mns_error *error)
+mns_status draw_late_program(draw *d, plan_shader which, mns_phase phase, mns_error *error)
 {
     char defines[PLAN_DEFINES];
     gl_shader shader = {.defines = defines};
     plan_shader_files(which, &shader.vertex, &shader.fragment, &shader.compute);
     plan_shader_defines(d->plan, which, defines);
-    draw_mark(d, MNS_PHASE_CAST);
+    draw_mark(d, phase);
     mns_status status = gl_program_get(&d->r->device, &d->r->programs, &shader, &d->program[which], error);
     draw_pause(d);
     return status;
+}
+
+static mns_status late_program(draw *d, plan_shader which, mns_error *error)
+{
+    return draw_late_program(d, which, MNS_PHASE_CAST, error);
 }
 
 /* Pixels that the cast left: first those that only need room, then those that need doubles. */
@@ -156,6 +160,7 @@ static mns_status draw_sample(draw *d, const double jitter[2], mns_error *error)
     if (plan->features & FEATURE_REFERENCE) return draw_reference_sample(d, jitter, error);
     list_region whole = {0, 0, plan->frame.width, plan->frame.height};
     set_view(d, jitter);
+    if (plan->features & FEATURE_TREE) return draw_tree_sample(d, error);
     if (plan->features & (FEATURE_CORE | FEATURE_HOST) && !(plan->features & FEATURE_TILES)) {
         list_core_depth(&d->r->passes, &d->r->device, plan, &d->r->order, d->program, whole);
         draw_mark(d, MNS_PHASE_CORE_DEPTH);
@@ -198,9 +203,11 @@ static mns_status draw_samples(draw *d, mns_error *error)
 /* The balls where the method wants them, and the samples from them. */
 static mns_status draw_balls(draw *d, mns_error *error)
 {
-    bool traced = d->plan->features & FEATURE_REFERENCE;
-    mns_status status = traced ? draw_reference_begin(d, error) : draw_balls_upload(d, error);
-    d->stats->balls_in_view = traced ? d->field->p.count : d->r->order.count;
+    bool traced = d->plan->features & FEATURE_REFERENCE, tree = d->plan->features & FEATURE_TREE;
+    mns_status status = traced ? draw_reference_begin(d, error)
+                        : tree ? draw_tree_begin(d, error)
+                               : draw_balls_upload(d, error);
+    d->stats->balls_in_view = traced || tree ? d->field->p.count : d->r->order.count;
     if (!status) status = draw_samples(d, error);
     draw_reference_end(d);
     return status;

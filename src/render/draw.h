@@ -46,6 +46,16 @@ mns_status draw_reference_begin(draw *d, mns_error *error);
 mns_status draw_reference_sample(draw *d, const double jitter[2], mns_error *error);
 void draw_reference_end(draw *d);
 
+/* A program that only some frames come to need: compiled when one does. What ran before counts to `phase`. */
+mns_status draw_late_program(draw *d, plan_shader which, mns_phase phase, mns_error *error);
+/* The view in doubles, to its uniform block. Errors: MEMORY, GL. */
+mns_status draw_wide_view(draw *d, mns_error *error);
+
+/* trace.c: builds (or takes, where it was built ahead) and uploads the tree, unless it is there already;
+ * traces one sample of every pixel into the planes. Errors: MEMORY, UNSUPPORTED, GL. */
+mns_status draw_tree_begin(draw *d, mns_error *error);
+mns_status draw_tree_sample(draw *d, mns_error *error);
+
 /* lists.c: gives every pixel of a region its list. *fits: false where they pass what the driver's blocks
  * hold. Errors: MEMORY, GL. */
 mns_status draw_lists(draw *d, list_region region, bool *fits, mns_error *error);

@@ -9,15 +9,18 @@
 
 void draw_stats_start(draw *d)
 {
-    static const char *const solvers[] = {"exact", "cubic", "cubic-monomial"};
+    static const char *const solvers[] = {"exact", "cubic", "cubic-monomial", "secant"};
     const mns_plan *plan = d->plan;
     mns_stats *stats = d->stats;
     *stats = (mns_stats){0};
     bool traced = plan->features & FEATURE_REFERENCE;
     bool tiles = plan->features & FEATURE_TILES;
-    stats->method = traced ? "reference" : tiles ? "tile" : "list";
+    bool tree = plan->features & FEATURE_TREE, overlaps = plan->features & FEATURE_OVERLAPS;
+    stats->method = traced ? "reference" : overlaps ? "bvh" : tree ? "fbvh" : tiles ? "tile" : "list";
     stats->solver = solvers[plan->options.solver];
-    stats->gather = traced || tiles ? "none" : plan->options.gather == MNS_GATHER_PAPER ? "paper" : "early-z";
+    stats->gather = traced || tiles || tree                    ? "none"
+                    : plan->options.gather == MNS_GATHER_PAPER ? "paper"
+                                                               : "early-z";
     stats->width = plan->frame.width;
     stats->height = plan->frame.height;
     stats->timed = plan->options.measure;
@@ -54,9 +57,11 @@ mns_status draw_hits_count(draw *d, mns_error *error)
 uint64_t draw_buffers_count(const mns_renderer *r)
 {
     const list_passes *p = &r->passes;
-    const gl_buffer *all[] = {&p->balls,   &p->balls_low, &p->cores,   &p->colors,    &p->nodes,
-                              &p->counter, &p->redo,      &p->view,    &p->view_wide, &p->far_block,
-                              &r->shade,   &p->backwards, &p->entries, &p->tile_heads};
+    const trace_passes *t = &r->trace;
+    const gl_buffer *all[] = {&p->balls,     &p->balls_low, &p->cores,   &p->colors,     &p->nodes,
+                              &p->counter,   &p->redo,      &p->view,    &p->view_wide,  &p->far_block,
+                              &r->shade,     &p->backwards, &p->entries, &p->tile_heads, &t->balls,
+                              &t->balls_low, &t->colors,    &t->pairs,   &t->leaves,     &t->references};
     uint64_t count = 0;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) count += all[i]->id != 0;
     return count;

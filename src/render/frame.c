@@ -19,11 +19,11 @@ mns_status mns_frame_create(mns_renderer *renderer, mns_frame **frame, mns_error
 static void drop_textures(mns_frame *f)
 {
     const GladGLContext *gl = &f->renderer->device.gl;
-    GLuint textures[] = {f->t, f->normal, f->color, f->shaded},
+    GLuint textures[] = {f->t, f->normal, f->color, f->shaded, f->work},
            targets[] = {f->planes_target, f->shaded_target};
-    gl->DeleteTextures(4, textures);
+    gl->DeleteTextures(5, textures);
     gl->DeleteFramebuffers(2, targets);
-    f->t = f->normal = f->color = f->shaded = f->planes_target = f->shaded_target = 0;
+    f->t = f->normal = f->color = f->shaded = f->work = f->planes_target = f->shaded_target = 0;
 }
 
 void mns_frame_destroy(mns_frame *f)
@@ -72,12 +72,17 @@ mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
         f->t_error = memory_array((size_t)width * (size_t)height, sizeof *f->t_error);
         if (!f->t_error) return status_no_memory(error, "while making a frame");
     }
-    if (f->t && f->width == width && f->height == height && f->has_color == color) return MNS_OK;
+    bool same = f->t && f->width == width && f->height == height;
+    bool work = plan->features & FEATURE_COUNTERS;
+    f->has_work = work;
+    if (same && work && !f->work) f->work = plane_make(gl, GL_RGBA32F, width, height);
+    if (same && f->has_color == color) return MNS_OK;
     drop_textures(f);
     f->t = plane_make(gl, GL_RG32F, width, height);
     f->normal = plane_make(gl, GL_RGBA32F, width, height);
     if (color) f->color = plane_make(gl, GL_RGBA16F, width, height);
     f->shaded = plane_make(gl, GL_RGBA32F, width, height);
+    if (work) f->work = plane_make(gl, GL_RGBA32F, width, height);
     GLuint planes[] = {f->t, f->normal, f->color};
     f->planes_target = target_make(gl, planes, color ? 3 : 2);
     f->shaded_target = target_make(gl, &f->shaded, 1);

@@ -4,6 +4,7 @@
 
 #include "list/passes.h"
 #include "tile/tile.h"
+#include "trace/passes.h"
 
 /* What the sorted and uploaded balls were made from: the same again, and nothing is sorted or uploaded. */
 typedef struct render_last {
@@ -17,6 +18,20 @@ typedef struct render_last {
     bool low; /* the low words are there too */
 } render_last;
 
+/* What the uploaded tree was made from. */
+typedef struct render_tree {
+    const mns_field *field;
+    uint64_t stamp;
+    uint64_t features; /* that change what is sent of a ball */
+    fbvh_options options;
+    bool colored; /* colours are there, of: */
+    uint64_t labels;
+    size_t color_column;
+    double color_range[2];
+    bool low;
+    fbvh_figures figures;
+} render_tree;
+
 struct mns_renderer {
     gl_device device;
     gl_programs programs;
@@ -24,6 +39,9 @@ struct mns_renderer {
     list_order order;
     tile_bins bins;
     bool binned; /* the bins are of the balls that are uploaded */
+    trace_passes trace;
+    trace_worker worker;
+    render_tree tree; /* zeroed: none is uploaded */
     gl_buffer shade;
     render_last last;
     bool disordered; /* lists have come out of order on this driver: sort them before they are cast */
@@ -34,9 +52,10 @@ struct mns_frame {
     mns_plan *plan; /* of the last draw; NULL before the first */
     mns_stats stats;
     GLuint t, normal, color, shaded; /* textures; color only with COLORS */
+    GLuint work;                     /* counts of each ray's work, with COUNTERS */
     GLuint planes_target, shaded_target;
     int width, height;
-    bool has_color;
+    bool has_color, has_work;
     float *t_error; /* bound on the error of each distance, row 0 at the top; NULL where the method gives none
                      */
 };

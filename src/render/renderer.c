@@ -22,6 +22,8 @@ void mns_renderer_destroy(mns_renderer *r)
     if (!r) return;
     list_passes_free(&r->passes, &r->device);
     list_order_free(&r->order);
+    trace_worker_free(&r->worker);
+    trace_passes_free(&r->trace, &r->device);
     tile_bins_free(&r->bins);
     gl_buffer_free(&r->device, &r->shade);
     gl_programs_free(&r->device, &r->programs);

@@ -2,6 +2,11 @@
 
 #include <string.h>
 
+/* What a frame that is traced through a tree has no use for. */
+#define NEVER_OF_TREES                                                                                       \
+    (FEATURE_CORE | FEATURE_CORE_RADII | FEATURE_PAPER | FEATURE_POINTS | FEATURE_QUADS | FEATURE_SHUFFLE |  \
+     FEATURE_CLIP_ZERO | FEATURE_FLAT_CORES | FEATURE_TILES)
+
 /* `a` only with all of `b`. */
 static bool implies(uint64_t features, uint64_t a, uint64_t b)
 {
@@ -19,8 +24,12 @@ bool variant_possible(uint64_t f)
                implies(f, FEATURE_LABELS, FEATURE_COLORS);
     }
     bool each_core = f & FEATURE_CORE && f & FEATURE_STRENGTHS;
+    bool tree = f & FEATURE_TREE;
+    if (tree && (f & NEVER_OF_TREES || (solver != MNS_SOLVER_EXACT && solver != MNS_SOLVER_SECANT)))
+        return false;
+    if (!tree && (solver == MNS_SOLVER_SECANT || f & (FEATURE_OVERLAPS | FEATURE_COUNTERS))) return false;
     return kernel >= MNS_KERNEL_POLY2 && kernel <= MNS_KERNEL_WENDLAND &&
-           solver <= MNS_SOLVER_CUBIC_MONOMIAL && f & (FEATURE_POINTS | FEATURE_QUADS) &&
+           (tree || f & (FEATURE_POINTS | FEATURE_QUADS | FEATURE_TILES)) &&
            implies(f, FEATURE_LABELS, FEATURE_COLORS) &&
            implies(f, FEATURE_EYE_INSIDE, FEATURE_EYE_IN_BALL) &&
            !(f & FEATURE_EYE_INSIDE && f & FEATURE_CORE) && !(f & FEATURE_FAR && f & FEATURE_EYE_IN_BALL) &&
@@ -55,7 +64,8 @@ uint64_t variant_reads(plan_shader shader)
 static uint64_t fill_in(plan_shader shader, uint64_t reads, uint64_t f)
 {
     bool quads = shader == SHADER_CORE_QUADS || shader == SHADER_GATHER_QUADS;
-    uint64_t more = quads ? FEATURE_QUADS : FEATURE_POINTS | FEATURE_QUADS;
+    bool tree = shader == SHADER_TREE || shader == SHADER_TREE_WALK || shader == SHADER_TREE_RESOLVE;
+    uint64_t more = tree ? FEATURE_TREE : quads ? FEATURE_QUADS : FEATURE_POINTS | FEATURE_QUADS;
     if (!(reads & FEATURE_KERNEL)) more |= MNS_KERNEL_POLY3;
     if (f & FEATURE_EYE_INSIDE) more |= FEATURE_EYE_IN_BALL;
     if (f & FEATURE_LABELS) more |= FEATURE_COLORS;

@@ -1,0 +1,227 @@
+// The slow path of a tree's frame that is always right: pixels that the cast could not hold go on in float, pixels that float could
+// not decide are solved in doubles (MNS_DOUBLE), by the same pieces, over all references of the leaves along the ray. Compute
+// shader, one invocation an entry of the redo list; a walk that takes long is left at a piece's end and taken up by the next
+// dispatch.
+//
+// The ray is walked from its start on, stretch by stretch: a stretch is what of it a leaf knows (in a fitted tree the leaf's box,
+// in an overlapping one the chord of one of its own balls), and the next is always the one that begins first.
+#include "real.glsl"
+#include "density.glsl"
+#include "view.glsl"
+#include "far.glsl"
+#include "balls.glsl"
+#include "tree.glsl"
+#include "chord.glsl"
+#include "loops.glsl"
+#include "active_references.glsl"
+#include "exact.glsl"
+#include "surface.glsl"
+#include "planes.glsl"
+#include "redo.glsl"
+#ifdef HOST_DEPTH
+#include "host.glsl"
+#endif
+
+layout(local_size_x = REDO_GROUP) in;
+layout(binding = 1, rg32f) writeonly uniform image2D plane_t;
+layout(binding = 2, rgba32f) writeonly uniform image2D plane_normal;
+#ifdef COLORS
+layout(binding = 3, rgba16f) writeonly uniform image2D plane_color;
+#endif
+
+#ifdef MNS_DOUBLE
+const uint RESOLVE_STATE = REDO_DOUBLE;
+uvec2 resolve_pack(REAL s) { return unpackDouble2x32(s); }
+REAL resolve_unpack(uvec2 bits) { return packDouble2x32(bits); }
+#else
+const uint RESOLVE_STATE = REDO_FLOAT;
+uvec2 resolve_pack(REAL s) { return uvec2(floatBitsToUint(s), 0u); }
+REAL resolve_unpack(uvec2 bits) { return uintBitsToFloat(bits.x); }
+#endif
+const int RESOLVE_LATER = 9; // beside the verdicts of a piece
+
+struct Stretch {
+    REAL begin, end;    // begin FAR_AWAY: none is left
+    uint first, past;   // references
+};
+
+// Takes [begin, end] for the next stretch if it goes past s and begins before the one found, or as early and ends later.
+void stretch_offer(REAL s, REAL begin, REAL end, Leaf leaf, inout Stretch next)
+{
+    begin = max(begin, s);
+    if (!(end > begin) || begin > next.begin || (begin == next.begin && end <= next.end)) return;
+    next.begin = begin;
+    next.end = end;
+    next.first = leaf.first;
+    next.past = leaf.past;
+}
+
+// What of the ray a leaf's box holds, in this precision.
+REAL2 stretch_box(uint link)
+{
+    uint at = 2u * (link & LINK_PLACE);
+    REAL3 start = leaf_ray.start;
+    REAL3 safe = REAL3(max(abs(leaf_ray.way), REAL3(1.0e-9)));
+    safe.x = leaf_ray.way.x < NUM(0.0) ? -safe.x : safe.x;
+    safe.y = leaf_ray.way.y < NUM(0.0) ? -safe.y : safe.y;
+    safe.z = leaf_ray.way.z < NUM(0.0) ? -safe.z : safe.z;
+    REAL3 a = (REAL3(uintBitsToFloat(tree_leaf(at).xyz)) - start) / safe;
+    REAL3 b = (REAL3(uintBitsToFloat(tree_leaf(at + 1u).xyz)) - start) / safe;
+#ifdef MNS_DOUBLE
+    REAL3 slack = REAL3(tree_slack) * NUM(1.0e-7);
+#else
+    REAL3 slack = tree_slack;
+#endif
+    REAL3 enter = min(a, b) - slack;
+    REAL3 leave = max(a, b) + slack;
+    return REAL2(max(enter.x, max(enter.y, enter.z)), min(leave.x, min(leave.y, leave.z)));
+}
+
+// The stretch that is known first of what lies after s.
+Stretch stretch_after(REAL s, REAL limit)
+{
+    Stretch next;
+    next.begin = FAR_AWAY;
+    next.end = FAR_AWAY;
+    next.first = 0u;
+    next.past = 0u;
+    tree_begin();
+    while (tree_link != LINK_NONE) {
+        float to = float(min(next.begin, limit));
+        float from = float(s);
+        leaf_work++;
+        if (tree_inner()) {
+            tree_step(from - 1.0e-6 * abs(from), to + 1.0e-6 * abs(to));
+            continue;
+        }
+        Leaf leaf = tree_leaf_at(tree_link, 0.0, float(FAR_AWAY));
+        REAL2 box = stretch_box(tree_link);
+        box.x = max(box.x, NUM(0.0));
+#ifdef OVERLAPS
+        for (uint at = leaf.first; at < leaf.past; at++) {
+            Place place = leaf_place(at);
+            if (place.reference >= REFERENCE_SPLIT) break; // own ones come first
+            if (place.holds)
+                stretch_offer(s, max(box.x, place.chord.a), min(box.y, place.chord.b), leaf, next);
+        }
+#else
+        stretch_offer(s, box.x, box.y, leaf, next);
+#endif
+        tree_next();
+    }
+    return next;
+}
+
+// f - L at s, turned so that the ray comes from below zero, less what rounding may be of it.
+REAL resolve_past(REAL s, REAL side)
+{
+    REAL value = NUM(0.0);
+    REAL margin = NUM(0.0);
+    active_from = s;
+    EACH_ACTIVE(j) {
+        Chord chord = active_chord(j);
+        REAL w = clamp((s - chord.a) * (chord.b - s) * chord.shrink, NUM(0.0), NUM(1.0));
+        value += chord.strength * density_value(KERNEL, NUM(1.0) - w);
+        margin += abs(chord.strength) * density_slope_bound(KERNEL, w) * chord_reach(chord, s);
+    }
+    return side * (level.x - value) - NUM(2.0) * TAU * margin;
+}
+
+// Walks on from s until there is a verdict, or too much work for one dispatch.
+int resolve_walk(REAL limit, REAL side, inout REAL s)
+{
+    bool begun = s == NUM(0.0); // nothing has been walked: no face lies behind
+    while (leaf_work < WALK_BUDGET) {
+        Stretch stretch = stretch_after(s, limit);
+        bool gap = stretch.begin > s;
+#ifdef EYE_INSIDE
+        // From inside, what no leaf knows lies outside: the way out is here, but for rounding.
+        if (side > NUM(0.0) && gap && s < limit) {
+            active_from = s;
+#ifdef MNS_DOUBLE
+            return begun ? PIECE_OPEN : PIECE_HIT;
+#else
+            return PIECE_OPEN;
+#endif
+        }
+#endif
+        if (stretch.begin >= limit || stretch.begin == FAR_AWAY) return PIECE_NONE;
+        s = stretch.begin;
+        leaf_first = stretch.first;
+        leaf_past = stretch.past;
+        bool face = true;
+        while (s < stretch.end && leaf_work < WALK_BUDGET) {
+            REAL stop = leaf_stop(s, stretch.end);
+            active_from = s;
+            piece_begin();
+            EACH_ACTIVE(j) piece_take(active_chord(j), s, stop);
+            if (piece_may(s, stop, side)) {
+                REAL hit;
+                int found = piece_solve(s, stop, side, RESOLVE_STEPS, hit);
+                leaf_work += 64;
+                // A leaf entered on the far side of the surface: its face is the hit.
+                if (found == PIECE_OPEN && face && !begun && resolve_past(s, side) > NUM(0.0)) {
+                    active_from = s;
+                    return PIECE_HIT;
+                }
+                if (found != PIECE_NONE) {
+                    s = hit;
+                    return found == PIECE_HIT && s > limit ? PIECE_NONE : found;
+                }
+            }
+            begun = false;
+            face = false;
+            if (!(stop > s)) break;
+            s = stop;
+        }
+    }
+    return RESOLVE_LATER;
+}
+
+void main()
+{
+    uint index = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * uint(REDO_GROUP);
+    if (index >= redo_count) return;
+    uvec4 entry = redo_entry[index];
+    if (entry.y != RESOLVE_STATE) return;
+    ivec2 at = ivec2(entry.x & 0xffffu, entry.x >> 16u);
+    vec2 position = vec2(at) + 0.5;
+    leaf_ray = view_ray(position);
+    tree_aim(vec3(leaf_ray.start), vec3(leaf_ray.way));
+    REAL limit = FAR_AWAY;
+#ifdef HOST_DEPTH
+    limit = REAL(host_limit(position));
+#endif
+    REAL s = resolve_unpack(entry.zw);
+    int found = resolve_walk(limit, NUM(SIDE), s);
+    Surface surface;
+    if (found == PIECE_HIT) surface = surface_at(leaf_ray, s);
+    bool whole = loops_whole(int(level_two));
+#ifndef MNS_DOUBLE
+    if (found == PIECE_HIT && !(abs(surface.shift) <= 1.0e-2 * surface.radius)) found = PIECE_OPEN;
+    if (found == PIECE_OPEN || found == PIECE_CAP || !whole) {
+        atomicAdd(count_float, 1u);
+        redo_entry[index] = uvec4(entry.x, REDO_DOUBLE, 0u, 0u);
+        return;
+    }
+#endif
+    if (found == RESOLVE_LATER && whole) {
+        redo_entry[index] = uvec4(entry.x, RESOLVE_STATE, resolve_pack(s));
+        atomicAdd(count_unfinished, 1u);
+        return;
+    }
+    redo_entry[index] = uvec4(entry.x, REDO_DONE, 0u, 0u);
+    Pixel pixel = pixel_miss(found == PIECE_NONE && whole);
+    if (found == PIECE_HIT) {
+        if (!(abs(surface.shift) <= NUM(1.0e-2) * surface.radius)) surface.shift = NUM(0.0);
+        pixel.t = pixel_distance(position, s, surface.shift);
+        pixel.normal = vec4(surface.normal, whole ? 1.0 : 0.0);
+        pixel.color = surface.color;
+    }
+    if (pixel.normal.w == 0.0) atomicAdd(count_undecided, 1u);
+    imageStore(plane_t, at, vec4(pixel.t, 0.0, 0.0));
+    imageStore(plane_normal, at, pixel.normal);
+#ifdef COLORS
+    imageStore(plane_color, at, pixel.color);
+#endif
+}

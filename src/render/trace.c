@@ -1,0 +1,149 @@
+/* A frame of the tree methods: the tree built and sent where it changed, and its rays traced. */
+#include "base/status.h"
+#include "render/draw.h"
+
+#include <string.h>
+
+/* Features that change what is sent of a ball. */
+#define TREE_FEATURES (FEATURE_RADII | FEATURE_STRENGTHS)
+
+/* ---- The tree
+ * --------------------------------------------------------------------------------------------------- */
+
+static bool same_tree(const draw *d)
+{
+    const render_tree *last = &d->r->tree;
+    const mns_plan *plan = d->plan;
+    return !plan->options.moved && last->field == d->field && last->stamp == d->field->stamp &&
+           last->features == (plan->features & TREE_FEATURES) &&
+           memcmp(&last->options, &plan->tree, sizeof plan->tree) == 0;
+}
+
+static bool same_colors(const draw *d)
+{
+    const render_tree *last = &d->r->tree;
+    const mns_plan *plan = d->plan;
+    return !(plan->features & FEATURE_COLORS) ||
+           (last->colored && last->labels == (plan->features & FEATURE_LABELS) &&
+            last->color_column == plan->color_column &&
+            memcmp(last->color_range, plan->color_range, sizeof last->color_range) == 0);
+}
+
+static mns_status send_tree(draw *d, mns_error *error)
+{
+    mns_renderer *r = d->r;
+    const fbvh_tree *tree = NULL;
+    memset(&r->tree, 0, sizeof r->tree);
+    mns_status status = trace_worker_take(&r->worker, d->field, &d->plan->tree, &tree, error);
+    draw_mark(d, MNS_PHASE_BUILD);
+    if (!status) status = trace_upload(&r->trace, &r->device, d->plan, tree, error);
+    draw_mark(d, MNS_PHASE_UPLOAD);
+    if (status) return status;
+    r->tree.field = d->field;
+    r->tree.stamp = d->field->stamp;
+    r->tree.features = d->plan->features & TREE_FEATURES;
+    r->tree.options = d->plan->tree;
+    r->tree.figures = tree->figures;
+    return MNS_OK;
+}
+
+static mns_status send_colors(draw *d, mns_error *error)
+{
+    render_tree *last = &d->r->tree;
+    const mns_plan *plan = d->plan;
+    last->colored = false;
+    mns_status status = trace_upload_colors(&d->r->trace, &d->r->device, plan, d->field, error);
+    draw_mark(d, MNS_PHASE_UPLOAD);
+    if (status) return status;
+    last->colored = true;
+    last->labels = plan->features & FEATURE_LABELS;
+    last->color_column = plan->color_column;
+    memcpy(last->color_range, plan->color_range, sizeof last->color_range);
+    return MNS_OK;
+}
+
+mns_status draw_tree_begin(draw *d, mns_error *error)
+{
+    mns_status status = same_tree(d) ? MNS_OK : send_tree(d, error);
+    if (!status && !same_colors(d)) status = send_colors(d, error);
+    return status;
+}
+
+/* ---- The rays
+ * --------------------------------------------------------------------------------------------------- */
+
+static mns_status send_low(draw *d, mns_error *error)
+{
+    mns_status status = draw_wide_view(d, error);
+    if (status || d->r->tree.low) return status;
+    draw_mark(d, MNS_PHASE_TRACE);
+    status = trace_upload_low(&d->r->trace, &d->r->device, d->plan, d->field, error);
+    d->r->tree.low = !status;
+    draw_mark(d, MNS_PHASE_UPLOAD);
+    return status;
+}
+
+/* Pixels that the cast left: first those that only need room, then those that need doubles. */
+static mns_status resolve(draw *d, const GLuint *planes, list_counts *counts, mns_error *error)
+{
+    mns_renderer *r = d->r;
+    if (counts->active + counts->steps > 0) {
+        mns_status status = draw_late_program(d, SHADER_TREE_WALK, MNS_PHASE_TRACE, error);
+        if (status) return status;
+        trace_resolve(&r->trace, &r->passes, &r->device, d->plan, d->program[SHADER_TREE_WALK], false, planes,
+                      counts);
+    }
+    if (!counts->undecided_float) return MNS_OK;
+    mns_status status = draw_late_program(d, SHADER_TREE_RESOLVE, MNS_PHASE_TRACE, error);
+    if (!status) status = send_low(d, error);
+    if (status) return status;
+    trace_resolve(&r->trace, &r->passes, &r->device, d->plan, d->program[SHADER_TREE_RESOLVE], true, planes,
+                  counts);
+    return MNS_OK;
+}
+
+static mns_status trace_rows(draw *d, list_region region, mns_error *error)
+{
+    const mns_frame *f = d->frame;
+    const GLuint planes[TRACE_PLANES] = {f->t, f->normal, d->plan->features & FEATURE_COLORS ? f->color : 0,
+                                         d->plan->features & FEATURE_COUNTERS ? f->work : 0};
+    mns_renderer *r = d->r;
+    list_counts counts;
+    trace_cast(&r->trace, &r->passes, &r->device, d->plan, d->program[SHADER_TREE], planes, region, &counts);
+    d->stats->tiles++;
+    mns_status status = counts.redo ? resolve(d, planes, &counts, error) : MNS_OK;
+    draw_mark(d, MNS_PHASE_TRACE);
+    draw_counts_add(d->stats, &counts);
+    return status;
+}
+
+/* As many rows at once as the list of pixels to resolve has room for. */
+mns_status draw_tree_sample(draw *d, mns_error *error)
+{
+    int width = d->plan->frame.width, height = d->plan->frame.height;
+    size_t most = d->r->passes.redo_capacity / (size_t)width;
+    if (!most)
+        return status_fail(error, MNS_ERROR_UNSUPPORTED,
+                           "size %dx%d: this driver's storage blocks hold no row", width, height);
+    mns_status status = MNS_OK;
+    for (int y = 0; y < height && !status;) {
+        int rows = most < (size_t)(height - y) ? (int)most : height - y;
+        status = trace_rows(d, (list_region){0, y, width, rows}, error);
+        y += rows;
+    }
+    return status;
+}
+
+/* ---- The next frame's tree
+ * -------------------------------------------------------------------------------------- */
+
+mns_status mns_renderer_prepare(mns_renderer *r, const mns_field *field, const mns_options *options,
+                                mns_error *error)
+{
+    if (!r || !field) return status_fail(error, MNS_ERROR_USAGE, "prepare: renderer or field is NULL");
+    bool tree = options && (options->method == MNS_METHOD_FBVH || options->method == MNS_METHOD_BVH);
+    if (!tree) return MNS_OK;
+    fbvh_options how;
+    mns_status status = plan_tree_options(options, &r->device.limits, &how, error);
+    return status ? status : trace_worker_begin(&r->worker, field, &how, error);
+}
