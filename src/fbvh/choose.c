@@ -2,7 +2,6 @@
 #include "fbvh/work.h"
 
 #include <float.h>
-#include <string.h>
 
 enum { BINS_MOST = 16, BINS_FEW = 8, FEW = 256 };
 
@@ -72,8 +71,8 @@ WORK_WIDE static void count(const work_set *set, const work_block *block, int ax
 
 static void fill(const work_set *set, const work_node *node, const work_block *block, bins *b)
 {
-    memset(b->enter, 0, sizeof b->enter);
-    memset(b->leave, 0, sizeof b->leave);
+    for (int a = 0; a < 3; a++)
+        for (int i = 0; i <= b->count; i++) b->enter[a][i] = b->leave[a][i] = 0;
     for (int a = 0; a < 3; a++) {
         b->lo[a] = node->lo[a];
         b->width[a] = (node->hi[a] - node->lo[a]) / (float)b->count;
@@ -101,15 +100,15 @@ static float cost_of(const work_set *set, float balls)
 }
 
 typedef struct search {
-    float best;
+    float best, most; /* balls of both children together */
     work_cut cut;
     bool found, bounded;
 } search;
 
-static void offer(search *s, const work_node *node, float cost, float balls, int axis, float plane)
+static inline void offer(search *s, float cost, float balls, int axis, float plane)
 {
     if (!(cost < s->best)) return;
-    if ((double)balls > node->references) {
+    if (balls > s->most) {
         s->bounded = true;
         return;
     }
@@ -131,7 +130,7 @@ static void search_fitted(const work_set *set, const work_node *node, const bins
             float area_right = face + round * width * (float)(b->count - i);
             float cost = area_left * cost_of(set, left) + area_right * cost_of(set, right);
             float plane = plane_of(b, a, i);
-            if (plane > node->lo[a] && plane < node->hi[a]) offer(s, node, cost, left + right, a, plane);
+            if (plane > node->lo[a] && plane < node->hi[a]) offer(s, cost, left + right, a, plane);
         }
     }
 }
@@ -194,7 +193,7 @@ static void search_overlapping(const work_set *set, const work_node *node, const
             float balls_right = (float)(b->leave[a][b->count] - b->leave[a][from]) * scale;
             float cost = box_area(left.lo, left.hi) * cost_of(set, balls_left) +
                          box_area(right[i].lo, right[i].hi) * cost_of(set, balls_right);
-            offer(s, node, cost, balls_left + balls_right, a, plane_of(b, a, i));
+            offer(s, cost, balls_left + balls_right, a, plane_of(b, a, i));
         }
     }
 }
@@ -225,7 +224,8 @@ bool work_choose(const work_set *set, const work_node *node, const work_block *b
     bins b = {.count = block->count < FEW ? BINS_FEW : BINS_MOST};
     fill(set, node, block, &b);
     float area = box_area(node->lo, node->hi), balls = (float)node->count;
-    search s = {.best = area * (cost_of(set, balls) - (float)set->options.traversal_cost)};
+    search s = {.best = area * (cost_of(set, balls) - (float)set->options.traversal_cost),
+                .most = (float)node->references};
     if (set->options.kind == FBVH_FITTED)
         search_fitted(set, node, &b, (float)step, &s);
     else

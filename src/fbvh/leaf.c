@@ -36,14 +36,16 @@ static bool shrink(work_node *node, const work_side *side)
     return true;
 }
 
-/* Keeps what reaches the leaf's box, finds S+ of it, and fits the box. False: no surface in it. */
-static bool sift_fitted(const work_set *set, work_node *node, uint32_t *list, work_block *block)
+/* Keeps what reaches the leaf's box, finds S+ of it, and fits the box. False: no surface in it. gathered: the
+ * block holds the list. */
+static bool sift_fitted(const work_set *set, work_node *node, uint32_t *list, work_block *block,
+                        bool gathered)
 {
     unsigned char taken[WORK_BLOCK];
     work_side side = work_side_none();
     for (size_t first = 0; first < node->count; first += WORK_BLOCK) {
         size_t count = node->count - first < WORK_BLOCK ? node->count - first : WORK_BLOCK;
-        work_gather(set, list + first, count, 1, block);
+        if (!gathered) work_gather(set, list + first, count, 1, block);
         work_take(set, block, node->lo, node->hi, node->span, taken, &side);
         for (size_t i = 0; i < count; i++) {
             list[side.count] = list[first + i];
@@ -118,11 +120,13 @@ size_t work_leaf(const work_set *set, work_node *node, uint32_t *list, work_bloc
 {
     bool fitted = set->options.kind == FBVH_FITTED;
     *discarded = 0;
-    if (!(fitted ? sift_fitted(set, node, list, block) : sift_overlapping(set, node, list))) return 0;
+    if (!(fitted ? sift_fitted(set, node, list, block, node->count <= WORK_BLOCK)
+                 : sift_overlapping(set, node, list)))
+        return 0;
     if (!set->options.no_discard && node->count <= set->options.discard_most)
         *discarded = discard(set, node, list);
     /* A smaller box leaves fewer balls, and those a smaller box: twice gets nearly all of it. */
-    if (fitted && !sift_fitted(set, node, list, block)) return 0;
+    if (fitted && !sift_fitted(set, node, list, block, false)) return 0;
     for (size_t i = node->own; i < node->count; i++) list[i] |= FBVH_SPLIT;
     return node->count;
 }

@@ -17,6 +17,9 @@ enum { CURVE_BITS = 10 };
  * that a node has when the halving of its first levels ends. */
 enum { DENSE = 16, MIDDLE_LEAST = 65536 };
 
+/* ... from which places away from the surface may be worth looking for. */
+enum { OVERLAPS = 4 };
+
 static uint32_t spread(uint32_t x) /* ten bits, two zeros before each */
 {
     x = (x | x << 16) & 0x030000ffu;
@@ -90,14 +93,20 @@ static void pack(const mns_field *f, const builder_sort *sort, builder_slot *slo
     }
 }
 
+/* Mean number of effective spheres over a point of the field's box. */
+static double overlap_of(const mns_field *f)
+{
+    double volume = 1, sphere = 4.18879 * pow(f->radius_median, 3);
+    for (int a = 0; a < 3; a++) volume *= f->effective_hi[a] - f->effective_lo[a];
+    return (double)f->p.count * sphere / volume;
+}
+
 /* Chosen levels of plain halving: of a very dense field, until a node is of a size to try planes for. */
 static int middle_levels(const mns_field *f, const fbvh_options *o)
 {
     if (o->middle_levels) return o->middle_levels > 0 ? o->middle_levels : 0;
-    double volume = 1, sphere = 4.18879 * pow(f->radius_median, 3);
-    for (int a = 0; a < 3; a++) volume *= f->effective_hi[a] - f->effective_lo[a];
+    if (!(overlap_of(f) >= DENSE)) return 0;
     int levels = 0;
-    if ((double)f->p.count * sphere < DENSE * volume) return 0;
     for (size_t balls = f->p.count; balls > MIDDLE_LEAST; balls /= 2) levels++;
     return levels;
 }
@@ -118,6 +127,7 @@ mns_status builder_prepare(fbvh_builder *b, builder_slot *slot, const mns_field 
     set->slack = (float)(most * 0x1p-21);
     set->iso = f->iso;
     set->middle_levels = middle_levels(f, &set->options);
+    set->overlaps = !set->options.no_deep && overlap_of(f) >= OVERLAPS;
     set->own = 0;
     set->sum = 0;
     for (size_t i = 0; i < set->count && set->strength; i++) {

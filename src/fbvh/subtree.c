@@ -50,7 +50,7 @@ static int cut_node(const work_set *set, work_node *node, work_bench *bench, wor
     work_cut cut;
     bool bounded;
     size_t step = work_look(set, node, bench->list + node->first, &bench->block);
-    if (step == 1 && !set->options.no_deep && work_deep(set, node, &bench->block)) {
+    if (step == 1 && set->overlaps && work_deep(set, node, &bench->block)) {
         tally->deep++;
         return CUT_LEAF;
     }

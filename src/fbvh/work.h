@@ -39,6 +39,7 @@ typedef struct work_set {
     double sum; /* S+ of all */
     double iso;
     int middle_levels;
+    bool overlaps;          /* so much that there may be an inside away from the surface */
     float span[WORK_SPANS]; /* of work_span */
 } work_set;
 
@@ -138,8 +139,9 @@ void work_part(const work_set *set, const work_node *node, const uint32_t *list,
 /* Sets levels and bounds of two children; false where together they break the node's bounds. */
 bool work_share(const work_node *node, work_node child[2]);
 
-/* Fits a leaf's box, drops what does not reach it or cannot contribute (section 5.3.2), and marks split
- * balls. `list` is rewritten in place; returns the references left, 0: no surface in it. */
+/* The block holds the node, if all of it fits. Fits a leaf's box, drops what does not reach it or cannot
+ * contribute (section 5.3.2), and marks split balls. `list` is rewritten in place; returns the references
+ * left, 0: no surface in it. */
 size_t work_leaf(const work_set *set, work_node *node, uint32_t *list, work_block *block, size_t *discarded);
 
 /* What one thread makes: subtrees, one after another. Children stand before their parents. */
