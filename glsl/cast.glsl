@@ -14,6 +14,7 @@
 #include "lists.glsl"
 #include "chord.glsl"
 #include "stream.glsl"
+#include "side.glsl"
 #include "loops.glsl"
 #if SOLVER != SOLVER_EXACT
 #define MIDDLES // of chords are separators too
@@ -67,7 +68,7 @@ float slot_sum(float s, float stop, out bool some)
 // a piece are loops of their own, so that on a wide machine no lane pays for what another does.
 int cast_walk(uint head, float limit, out float s)
 {
-    s = 0.0;
+    s = RAY_BEGIN;
     slots_clear();
     stream_read(head);
     float stop = FAR_AWAY;
@@ -133,12 +134,12 @@ void main()
         limit = host_limit(position);
 #endif
         float t;
+        side_take(ray);
         int found = cast_walk(head, limit, t);
         if (found == PIECE_HIT) {
             Surface surface = surface_at(ray, t);
 #if SOLVER == SOLVER_EXACT
-            // A Newton step that is not small is no correction: double shall decide.
-            if (!(abs(surface.shift) <= 1.0e-2 * surface.radius)) found = PIECE_OPEN;
+            if (!surface_settled(surface, t)) found = PIECE_OPEN;
 #else
             surface.shift = 0.0;
 #endif

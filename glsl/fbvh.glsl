@@ -10,6 +10,7 @@
 #include "tree.glsl"
 #include "chord.glsl"
 #include "loops.glsl"
+#include "side.glsl"
 #include "active_leaf.glsl"
 #if SOLVER == SOLVER_EXACT
 #include "exact.glsl"
@@ -48,7 +49,8 @@ void main()
     limit = host_limit(position);
 #endif
     Pixel pixel = pixel_miss(true);
-    Cast got = tree_cast(ray, 0.0, limit, float(SIDE));
+    side_take(ray);
+    Cast got = tree_cast(ray, RAY_BEGIN, limit, float(SIDE));
     int found = got.found;
     if (found == PIECE_HIT) {
 #ifdef OVERLAPS

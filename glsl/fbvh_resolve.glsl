@@ -13,6 +13,7 @@
 #include "tree.glsl"
 #include "chord.glsl"
 #include "loops.glsl"
+#include "side.glsl"
 #include "active_references.glsl"
 #include "exact.glsl"
 #include "surface.glsl"
@@ -130,7 +131,7 @@ REAL resolve_past(REAL s, REAL side)
 // Walks on from s until there is a verdict, or too much work for one dispatch.
 int resolve_walk(REAL limit, REAL side, inout REAL s)
 {
-    bool begun = s == NUM(0.0); // nothing has been walked: no face lies behind
+    bool begun = s == RAY_BEGIN; // nothing has been walked: no face lies behind
     while (leaf_work < WALK_BUDGET) {
         Stretch stretch = stretch_after(s, limit);
         bool gap = stretch.begin > s;
@@ -192,8 +193,9 @@ void main()
 #ifdef HOST_DEPTH
     limit = REAL(host_limit(position));
 #endif
-    REAL s = resolve_unpack(entry.zw);
-    int found = resolve_walk(limit, NUM(SIDE), s);
+    side_take(leaf_ray);
+    REAL s = max(resolve_unpack(entry.zw), RAY_BEGIN);
+    int found = resolve_walk(limit, SIDE, s);
     Surface surface;
     if (found == PIECE_HIT) surface = surface_at(leaf_ray, s);
     bool whole = loops_whole(int(level_two));

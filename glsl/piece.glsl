@@ -78,7 +78,7 @@ void piece_take(Chord chord, REAL s, REAL stop)
 bool piece_may(REAL s, REAL stop, REAL side)
 {
     piece_margin *= TAU;
-#ifdef EYE_INSIDE
+#if defined(EYE_INSIDE) || defined(EYE_ON)
     for (int i = 0; i <= DEGREE; i++) piece_b[i] = (level.x - piece_b[i]) * side;
 #else
     for (int i = 0; i <= DEGREE; i++) piece_b[i] -= level.x;
@@ -90,10 +90,12 @@ bool piece_may(REAL s, REAL stop, REAL side)
 int piece_solve(REAL s, REAL stop, REAL side, int steps, out REAL hit)
 {
     REAL x;
+    hit = s;
+#ifdef EYE_IN_BALL
+    // Which side the ray starts on must be certain too.
+    if (s <= RAY_BEGIN && !(piece_b[0] < -piece_margin)) return PIECE_OPEN;
+#endif
     int found = bernstein_first(piece_b, piece_margin, steps, x);
     hit = s + x * (stop - s);
-#ifdef EYE_INSIDE
-    if (found == PIECE_HIT && !(hit > NUM(0.0))) found = PIECE_OPEN; // the eye is on the surface: which side follows is open
-#endif
     return found;
 }

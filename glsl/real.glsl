@@ -8,6 +8,7 @@
 #define REAL4 dvec4
 const double TAU = 9.094947017729282379150390625e-13LF;
 const double SOLVE_TOLERANCE = 1.0e-13LF;
+const double SETTLED = 1.0e-9LF;
 #else
 #define REAL float
 #define REAL2 vec2
@@ -15,6 +16,7 @@ const double SOLVE_TOLERANCE = 1.0e-13LF;
 #define REAL4 vec4
 const float TAU = 9.5367431640625e-7;
 const float SOLVE_TOLERANCE = 1.0e-6;
+const float SETTLED = 4.0e-6; // of a hit's distance, what rounding may move it by
 #endif
 #define NUM(x) REAL(x)
 #define DENSITY_FN

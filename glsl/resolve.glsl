@@ -10,6 +10,7 @@
 #include "lists.glsl"
 #include "chord.glsl"
 #include "stream.glsl"
+#include "side.glsl"
 #include "loops.glsl"
 #include "active_links.glsl"
 #include "exact.glsl"
@@ -78,13 +79,14 @@ void main()
 #ifdef HOST_DEPTH
     limit = REAL(host_limit(position));
 #endif
-    REAL s = resolve_unpack(entry.zw);
+    side_take(links_ray);
+    REAL s = max(resolve_unpack(entry.zw), RAY_BEGIN);
     int found = resolve_walk(limit, s);
     Surface surface;
     if (found == PIECE_HIT) surface = surface_at(links_ray, s);
     bool whole = loops_whole(int(level_two));
 #ifndef MNS_DOUBLE
-    if (found == PIECE_HIT && !(abs(surface.shift) <= 1.0e-2 * surface.radius)) found = PIECE_OPEN;
+    if (found == PIECE_HIT && !surface_settled(surface, s)) found = PIECE_OPEN;
     if (found == PIECE_OPEN || found == PIECE_CAP || !whole) {
         atomicAdd(count_float, 1u);
         redo_entry[index] = uvec4(entry.x, REDO_DOUBLE, 0u, 0u);

@@ -2,6 +2,7 @@
 
 struct Surface {
     REAL shift;     // what to add to t
+    REAL blur;      // about how far rounding may have moved the hit
     REAL radius;    // the least of the balls around
     REAL3 normal;   // outward unit normal, -grad f / |grad f|
     vec4 color;     // density-weighted mean of the balls' colours or values (COLORS)
@@ -36,6 +37,7 @@ Surface surface_at(Ray ray, REAL t)
     vec4 color = vec4(0.0);
     float weight = 0.0;
     REAL least = FAR_AWAY;
+    REAL rounding = NUM(0.0);
     EACH_ACTIVE(j) {
         uint ball = active_ball(j);
         Ball here = ball_get(ball);
@@ -49,7 +51,9 @@ Surface surface_at(Ray ray, REAL t)
         REAL q = here.strength;
         REAL part = q * density_value(KERNEL, u);
         value += part;
-        gradient += q * density_slope_over_v(KERNEL, u) * shrink * from;
+        REAL steep = density_slope_over_v(KERNEL, u);
+        gradient += q * steep * shrink * from;
+        rounding += abs(part) + abs(q * steep) * sqrt(u) * (t + view_reach) * shrink;
 #ifdef COLORS
         weight += max(float(part), 0.0);
         color += max(float(part), 0.0) * color_of(ball);
@@ -60,7 +64,18 @@ Surface surface_at(Ray ray, REAL t)
     REAL slope = dot(gradient, ray.way);
     REAL size = sqrt(dot(gradient, gradient));
     surface.shift = slope != NUM(0.0) ? -value / slope : NUM(0.0);
+    surface.blur = NUM(0.25) * TAU * rounding / abs(slope);
     surface.normal = size > NUM(0.0) ? -gradient / size : -ray.way;
     surface.color = weight > 0.0 ? color / weight : vec4(0.0);
     return surface;
+}
+
+// Whether the hit's place is good to its last digits: a Newton step that is not small is no correction, and where the slope is slight
+// or the balls are tiny beside their distance from the origin, rounding may have moved it.
+bool surface_settled(Surface surface, REAL t)
+{
+#ifdef FAR
+    t += depth.y + view_excess; // from the eye
+#endif
+    return abs(surface.shift) <= NUM(1.0e-2) * surface.radius && surface.blur <= SETTLED * max(t, surface.radius);
 }

@@ -65,8 +65,8 @@ int piece_solve(REAL s, REAL stop, REAL side, int steps, out REAL hit)
         if (at.value >= NUM(-2.0) * margin) {
             hit = at.slope > NUM(0.0) ? s - at.value / at.slope : s;
             bool crosses = at.slope > NUM(0.0) && at.slope * at.slope > NUM(4.0) * bend * (NUM(3.0) * margin + abs(at.value));
-#ifdef EYE_INSIDE
-            crosses = crosses && hit > NUM(0.0); // else the eye is on the surface: which side follows is open
+#ifdef EYE_IN_BALL
+            crosses = crosses && s > RAY_BEGIN; // which side the ray starts on must be certain too
 #endif
             return crosses && at.value <= NUM(2.0) * margin ? PIECE_HIT : PIECE_OPEN;
         }

@@ -16,13 +16,15 @@ layout(std140, binding = 0) uniform View {
     REAL4 lens;    // cotangents of half the field of view across and up, width, height
     REAL4 depth;   // 1 / range of effective distances, depth of the plane where rays begin, jitter in pixels x, y
     REAL4 level;   // L, the radius of all balls, 1 / its square, reach: how far from o a ray begins at most
-    REAL4 core;    // core radius over R of every ball, 1 / the radius of all balls, 2
+    REAL4 core;    // core radius over R of every ball, 1 / the radius of all balls, 2, how far from the eye eye_slope.w holds
     REAL4 sight_steps; // a pixel's step of a raw direction's side, and of a ray's start, which at pixel (0, 0) is zw
+    REAL4 eye_slope; // gradient of f at the eye, and a bound on its second derivatives there; used when EYE_ON
     REAL4 host;    // near, far of a host's projection, lower left corner of the view in its framebuffer
 };
 
 #define level_inverse core.y
 #define level_two core.z
+#define eye_reach core.w
 
 struct Ray {
     REAL3 start;

@@ -212,7 +212,7 @@ static void defines_hold_whole_numbers_only(void **state)
     (void)state;
     for (int shader = 0; shader < SHADER_COUNT; shader++) {
         char defines[PLAN_DEFINES], name[64];
-        mns_plan plan = {.features = (1u << FEATURE_COUNT) - 1,
+        mns_plan plan = {.features = ~UINT64_C(0) >> (64 - FEATURE_COUNT),
                          .options = {.slots = 1024, .root_steps = 4096}};
         plan_shader_defines(&plan, (plan_shader)shader, defines);
         assert_true(strlen(defines) < PLAN_DEFINES / 2);

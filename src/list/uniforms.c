@@ -38,12 +38,13 @@ void list_view_block(const mns_plan *plan, const mns_field *field, const double 
     put(wide, 9, (vec3){cot * f->height / f->width, cot, f->width}, f->height);
     put(wide, 10, (vec3){1 / plan->depth_range, depth, jitter[0]}, jitter[1]);
     put(wide, 11, (vec3){field->iso, radius, radius > 0 ? 1 / (radius * radius) : 0}, plan->reach);
-    put(wide, 12, (vec3){plan->core_ratio, radius > 0 ? 1 / radius : 0, 2}, 0);
+    put(wide, 12, (vec3){plan->core_ratio, radius > 0 ? 1 / radius : 0, 2}, plan->facts.eye_reach);
     double step = 2 * f->tan_half / f->height;
     put(wide, 13,
         (vec3){step, depth * step, vec3_dot(eye, f->right) + depth * step * (jitter[0] - 0.5 * f->width)},
         vec3_dot(eye, f->up) + depth * step * (jitter[1] - 0.5 * f->height));
-    put(wide, 14, (vec3){host ? host->near : 0, host ? host->far : 1, host ? host->x : 0},
+    put(wide, 14, vec3_load(plan->facts.eye_gradient), plan->facts.eye_bend);
+    put(wide, 15, (vec3){host ? host->near : 0, host ? host->far : 1, host ? host->x : 0},
         host ? host->y : 0);
     for (int i = 0; i < VIEW_VECTORS * 4; i++) narrow[i] = (float)wide[i];
 }

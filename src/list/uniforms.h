@@ -4,7 +4,7 @@
 
 #include "plan/plan.h"
 
-enum { VIEW_VECTORS = 15, FAR_VECTORS = 4 };
+enum { VIEW_VECTORS = 16, FAR_VECTORS = 4 };
 
 /* The View block as doubles (resolve reads it so) and as floats (all others), in the order of the GLSL.
  * jitter: of the sample, in pixels from the centre. host: near, far, x, y of a mns_target, or NULL. */

@@ -9,7 +9,7 @@ static const char *const feature_names[FEATURE_COUNT] = {
     [15] = "host",        [16] = "shuffle",   [17] = "colors",      [18] = "labels",     [19] = "cel",
     [20] = "directional", [21] = "specular",  [22] = "samples",     [23] = "clip_zero",  [24] = "texels",
     [25] = "flat_cores",  [26] = "reference", [27] = "tiles",       [28] = "tree",       [29] = "overlaps",
-    [30] = "counters",
+    [30] = "counters",    [31] = "eye_on",
 };
 
 static const char *const solver_names[] = {"exact", "cubic", "cubic-monomial", "secant"};

@@ -21,6 +21,25 @@ static void sum_at_eye(const mns_field *field, vec3 eye, plan_facts *facts)
     facts->eye_value = value;
 }
 
+/* Slope and bend of f about an eye that is on the surface. */
+static void bend_at_eye(const mns_field *field, vec3 eye, plan_facts *facts)
+{
+    const double *x = field->p.axis[0], *y = field->p.axis[1], *z = field->p.axis[2];
+    vec3 gradient = {0, 0, 0};
+    facts->eye_reach = field->radius_min / 16;
+    facts->eye_bend = 0;
+    for (size_t i = 0; i < field->p.count; i++) {
+        double r = field_radius(field, i), q = field_strength(field, i);
+        vec3 d = vec3_scale(vec3_sub(eye, (vec3){x[i], y[i], z[i]}), 1 / r);
+        double v = vec3_length(d);
+        if (v >= 1 + facts->eye_reach / r) continue;
+        facts->eye_bend += fabs(q) * density_curvature_bound((int)field->kernel) / (r * r);
+        if (v < 1)
+            gradient = vec3_along(gradient, q * density_slope_over_v((int)field->kernel, v * v) / r, d);
+    }
+    vec3_store(facts->eye_gradient, gradient);
+}
+
 void plan_facts_of(const mns_field *field, const view_frame *frame, plan_facts *facts)
 {
     *facts = (plan_facts){.strongest = field->strength_max, .negative = field->strength_min < 0};
@@ -40,4 +59,5 @@ void plan_facts_of(const mns_field *field, const view_frame *frame, plan_facts *
     }
     facts->plane_depth = fmax(0, shallowest);
     if (facts->eye_distance <= 0) sum_at_eye(field, frame->eye, facts);
+    if (facts->eye_value == field->iso) bend_at_eye(field, frame->eye, facts);
 }

@@ -121,10 +121,15 @@ void plan_eye(mns_plan *plan, const mns_field *field)
         plan->features |= FEATURE_EYE_IN_BALL;
     else
         plan_leave_out(plan, "rays that start inside a ball", "the eye is outside every effective sphere");
-    if (facts->eye_value >= field->iso)
+    if (facts->eye_value > field->iso)
         plan->features |= FEATURE_EYE_INSIDE;
     else
-        plan_leave_out(plan, "the way out of the surface", "f(eye) < L");
+        plan_leave_out(plan, "the way out of the surface",
+                       facts->eye_value < field->iso ? "f(eye) < L" : "f(eye) = L");
+    if (facts->eye_value == field->iso && facts->eye_bend > 0)
+        plan->features |= FEATURE_EYE_ON;
+    else
+        plan_leave_out(plan, "a start on the surface", "f(eye) is not L");
     if (facts->eye_distance > FAR_RADII * field->radius_max) {
         plan->features |= FEATURE_FAR;
         origin = vec3_load(facts->nearest_point);

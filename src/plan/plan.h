@@ -8,37 +8,37 @@
 #include "scene/view.h"
 
 /* One bit a capability; kernel and solver are numbers in the lowest bits. */
-enum plan_feature {
-    FEATURE_KERNEL = 0x7,          /* mns_kernel */
-    FEATURE_SOLVER = 0x18,         /* mns_solver << 3 */
-    FEATURE_RADII = 1 << 5,        /* a radius a ball */
-    FEATURE_STRENGTHS = 1 << 6,    /* a strength a ball */
-    FEATURE_CORE = 1 << 7,         /* core depth */
-    FEATURE_CORE_RADII = 1 << 8,   /* a core radius a ball, not the same part of every R */
-    FEATURE_PAPER = 1 << 9,        /* gather as the paper has it */
-    FEATURE_POINTS = 1 << 10,      /* small balls drawn as points */
-    FEATURE_QUADS = 1 << 11,       /* some ball may be too large for a point */
-    FEATURE_EYE_IN_BALL = 1 << 12, /* rays may start inside a ball */
-    FEATURE_EYE_INSIDE = 1 << 13,  /* f(eye) >= L: rays look for the exit */
-    FEATURE_FAR = 1 << 14,         /* rays begin on a plane at the field's box */
-    FEATURE_HOST = 1 << 15,        /* a host's depth clips, and its framebuffer is drawn on */
-    FEATURE_SHUFFLE = 1 << 16,     /* lists put in a random order, for tests */
-    FEATURE_COLORS = 1 << 17,      /* colour by a column */
-    FEATURE_LABELS = 1 << 18,      /* of labels (elements), not numbers */
-    FEATURE_CEL = 1 << 19,
-    FEATURE_DIRECTIONAL = 1 << 20, /* a light of its own, not at the eye */
-    FEATURE_SPECULAR = 1 << 21,
-    FEATURE_SAMPLES = 1 << 22,    /* more than one sample a pixel */
-    FEATURE_CLIP_ZERO = 1 << 23,  /* clip control: depth without the 2z - 1 */
-    FEATURE_TEXELS = 1 << 24,     /* balls and lists are read as texels */
-    FEATURE_FLAT_CORES = 1 << 25, /* core spheres laid down as flat squares, without a fragment shader */
-    FEATURE_REFERENCE = 1 << 26,  /* traced on the CPU; nothing but colours is left to GL */
-    FEATURE_TILES = 1 << 27,      /* lists a tile of pixels long, binned on the CPU */
-    FEATURE_TREE = 1 << 28,       /* traced through a tree of boxes */
-    FEATURE_OVERLAPS = 1 << 29,   /* whose leaves overlap */
-    FEATURE_COUNTERS = 1 << 30,   /* a ray's work is counted */
-    FEATURE_COUNT = 31
-};
+#define FEATURE_KERNEL      UINT64_C(0x7)       /* mns_kernel */
+#define FEATURE_SOLVER      UINT64_C(0x18)      /* mns_solver << 3 */
+#define FEATURE_RADII       (UINT64_C(1) << 5)  /* a radius a ball */
+#define FEATURE_STRENGTHS   (UINT64_C(1) << 6)  /* a strength a ball */
+#define FEATURE_CORE        (UINT64_C(1) << 7)  /* core depth */
+#define FEATURE_CORE_RADII  (UINT64_C(1) << 8)  /* a core radius a ball, not the same part of every R */
+#define FEATURE_PAPER       (UINT64_C(1) << 9)  /* gather as the paper has it */
+#define FEATURE_POINTS      (UINT64_C(1) << 10) /* small balls drawn as points */
+#define FEATURE_QUADS       (UINT64_C(1) << 11) /* some ball may be too large for a point */
+#define FEATURE_EYE_IN_BALL (UINT64_C(1) << 12) /* rays may start inside a ball */
+#define FEATURE_EYE_INSIDE  (UINT64_C(1) << 13) /* f(eye) >= L: rays look for the exit */
+#define FEATURE_FAR         (UINT64_C(1) << 14) /* rays begin on a plane at the field's box */
+#define FEATURE_HOST        (UINT64_C(1) << 15) /* a host's depth clips, and its framebuffer is drawn on */
+#define FEATURE_SHUFFLE     (UINT64_C(1) << 16) /* lists put in a random order, for tests */
+#define FEATURE_COLORS      (UINT64_C(1) << 17) /* colour by a column */
+#define FEATURE_LABELS      (UINT64_C(1) << 18) /* of labels (elements), not numbers */
+#define FEATURE_CEL         (UINT64_C(1) << 19)
+#define FEATURE_DIRECTIONAL (UINT64_C(1) << 20) /* a light of its own, not at the eye */
+#define FEATURE_SPECULAR    (UINT64_C(1) << 21)
+#define FEATURE_SAMPLES     (UINT64_C(1) << 22) /* more than one sample a pixel */
+#define FEATURE_CLIP_ZERO   (UINT64_C(1) << 23) /* clip control: depth without the 2z - 1 */
+#define FEATURE_TEXELS      (UINT64_C(1) << 24) /* balls and lists are read as texels */
+#define FEATURE_FLAT_CORES                                                                                   \
+    (UINT64_C(1) << 25) /* core spheres laid down as flat squares, without a fragment shader */
+#define FEATURE_REFERENCE (UINT64_C(1) << 26) /* traced on the CPU; nothing but colours is left to GL */
+#define FEATURE_TILES     (UINT64_C(1) << 27) /* lists a tile of pixels long, binned on the CPU */
+#define FEATURE_TREE      (UINT64_C(1) << 28) /* traced through a tree of boxes */
+#define FEATURE_OVERLAPS  (UINT64_C(1) << 29) /* whose leaves overlap */
+#define FEATURE_COUNTERS  (UINT64_C(1) << 30) /* a ray's work is counted */
+#define FEATURE_EYE_ON    (UINT64_C(1) << 31) /* f(eye) = L: rays take the side just after */
+enum { FEATURE_COUNT = 32 };
 
 enum { PLAN_MOST = 16 }; /* passes; parts left out are at most PLAN_PARTS */
 enum { PLAN_PARTS = 24 };
@@ -47,12 +47,14 @@ enum { PLAN_PARTS = 24 };
 typedef struct plan_facts {
     double eye_distance; /* from the box of the effective spheres; 0 inside */
     bool eye_in_ball;
-    double eye_value;        /* f(eye) */
-    double strongest;        /* largest strength; 1 without strengths */
-    bool negative;           /* some strength below zero */
-    double farthest;         /* from the eye to the farthest corner of the box of the effective spheres */
-    double plane_depth;      /* depth along the view before which no effective sphere begins; at least 0 */
-    double nearest_point[3]; /* of that box to the eye */
+    double eye_value;       /* f(eye) */
+    double eye_gradient[3]; /* of f at the eye, where eye_value = L; and there, within eye_reach, a bound */
+    double eye_bend, eye_reach; /* on f's second derivative along any line */
+    double strongest;           /* largest strength; 1 without strengths */
+    bool negative;              /* some strength below zero */
+    double farthest;            /* from the eye to the farthest corner of the box of the effective spheres */
+    double plane_depth;         /* depth along the view before which no effective sphere begins; at least 0 */
+    double nearest_point[3];    /* of that box to the eye */
 } plan_facts;
 
 struct mns_plan {

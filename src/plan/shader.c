@@ -8,13 +8,12 @@ typedef struct shader_part {
     uint64_t reads; /* features that change its text */
 } shader_part;
 
-enum {
-    READS_BALL = FEATURE_KERNEL | FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_FAR,
-    READS_RAY = READS_BALL | FEATURE_SOLVER | FEATURE_EYE_INSIDE | FEATURE_HOST | FEATURE_COLORS |
-                FEATURE_LABELS | FEATURE_TEXELS | FEATURE_TILES,
-    READS_TREE = (READS_RAY | FEATURE_OVERLAPS) & ~(FEATURE_SOLVER | FEATURE_TEXELS | FEATURE_TILES),
-    READS_BILLBOARD = FEATURE_RADII | FEATURE_FAR | FEATURE_CLIP_ZERO,
-};
+#define READS_BALL (FEATURE_KERNEL | FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_FAR)
+#define READS_RAY                                                                                            \
+    (READS_BALL | FEATURE_SOLVER | FEATURE_EYE_IN_BALL | FEATURE_EYE_INSIDE | FEATURE_EYE_ON |               \
+     FEATURE_HOST | FEATURE_COLORS | FEATURE_LABELS | FEATURE_TEXELS | FEATURE_TILES)
+#define READS_TREE      ((READS_RAY | FEATURE_OVERLAPS) & ~(FEATURE_SOLVER | FEATURE_TEXELS | FEATURE_TILES))
+#define READS_BILLBOARD (FEATURE_RADII | FEATURE_FAR | FEATURE_CLIP_ZERO)
 
 static const shader_part parts[SHADER_COUNT] = {
     [SHADER_CORE_QUADS] = {"billboard.vert.glsl", "core.frag.glsl", NULL,
@@ -66,6 +65,7 @@ static void add_features(char *defines, uint64_t f)
         {FEATURE_CORE_RADII, "CORE_RADII"},
         {FEATURE_EYE_IN_BALL, "EYE_IN_BALL"},
         {FEATURE_EYE_INSIDE, "EYE_INSIDE"},
+        {FEATURE_EYE_ON, "EYE_ON"},
         {FEATURE_FAR, "FAR"},
         {FEATURE_HOST, "HOST_DEPTH"},
         {FEATURE_COLORS, "COLORS"},
@@ -98,7 +98,8 @@ static bool is_tree(plan_shader shader)
 static void add_ray(const mns_plan *plan, plan_shader shader, char *defines, uint64_t f)
 {
     add(defines, "KERNEL", (int)(f & FEATURE_KERNEL));
-    add(defines, "SIDE", f & FEATURE_EYE_INSIDE ? 1 : -1);
+    /* The trees ask for the side where it matters. */
+    if (is_tree(shader) && f & FEATURE_EYE_ON && !(f & FEATURE_EYE_INSIDE)) add(defines, "EYE_INSIDE", 1);
     add(defines, "WALK_BUDGET", shader == SHADER_CAST || shader == SHADER_TREE ? CAST_BUDGET : WALK_BUDGET);
     if (is_tree(shader)) add(defines, "TREE_DEPTH", FBVH_DEPTH_MOST + 1);
     if (shader == SHADER_RESOLVE || shader == SHADER_TREE_RESOLVE) add(defines, "MNS_DOUBLE", 1);

@@ -45,7 +45,7 @@ static void defines_of(plan_shader shader, uint64_t features, char defines[PLAN_
 uint64_t variant_reads(plan_shader shader)
 {
     char with[PLAN_DEFINES], without[PLAN_DEFINES];
-    const uint64_t all = (1u << FEATURE_COUNT) - 1;
+    const uint64_t all = ~UINT64_C(0) >> (64 - FEATURE_COUNT);
     uint64_t reads = 0;
     /* A feature may matter only beside another, or only without it. */
     for (int bit = 0; bit < FEATURE_COUNT; bit++)
