@@ -4,6 +4,8 @@
 
 #include "plan/plan.h"
 
+#include <string.h>
+
 /* A ball as it goes to the GPU: position relative to the plan's origin, in floats, and where it stands in
  * the field. */
 typedef struct list_ball {
@@ -29,6 +31,16 @@ void list_order_free(list_order *order);
 static inline const list_ball *list_ball_at(const list_order *order, size_t place)
 {
     return &order->ball[(uint32_t)order->key[place]];
+}
+
+/* The effective distance that a key was made from. */
+static inline float list_key_distance(uint64_t key)
+{
+    uint32_t bits = (uint32_t)(key >> 32);
+    float distance;
+    bits = bits & 0x80000000u ? bits & 0x7fffffffu : ~bits;
+    memcpy(&distance, &bits, sizeof distance);
+    return distance;
 }
 
 /* Fewer balls are sorted and packed by one thread: OpenMP's threads go on spinning for milliseconds after

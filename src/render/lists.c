@@ -73,29 +73,31 @@ static mns_status upload_tiles(draw *d, mns_error *error)
     return MNS_OK;
 }
 
-static bool same_region(list_region a, list_region b)
-{
-    return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
-}
-
-static mns_status bin(draw *d, list_region region, bool *fits, mns_error *error)
+static mns_status bin(draw *d, list_region region, mns_error *error)
 {
     mns_renderer *r = d->r;
     tile_bins *bins = &r->bins;
-    *fits = true;
     mns_status status = MNS_OK;
-    if (!r->binned) status = tile_outlines_make(bins, &r->order, d->field, d->plan, error);
-    if (status) return status;
-    if (!r->binned || !same_region(bins->region, region)) {
-        r->binned = true; /* the outlines; the region tells of the lists */
-        status = tile_bins_make(bins, &r->order, region, error);
-        *fits = !status && bins->count < d->plan->pool_most;
-        draw_mark(d, MNS_PHASE_BIN);
-        if (*fits) status = upload_tiles(d, error);
-        if (status || !*fits) bins->region = (list_region){0};
-        draw_mark(d, MNS_PHASE_UPLOAD);
+    if (!r->binned || !tile_outlines_serve(bins, d->plan))
+        status = tile_outlines_make(bins, &r->order, d->field, d->plan, error);
+    r->binned = !status;
+    if (!status) status = tile_bins_make(bins, &r->order, d->field, d->plan, region, error);
+    draw_mark(d, MNS_PHASE_BIN);
+    if (!status && bins->fits) status = upload_tiles(d, error);
+    if (status) bins->fits = false;
+    draw_mark(d, MNS_PHASE_UPLOAD);
+    return status;
+}
+
+static mns_status bin_or_reuse(draw *d, list_region region, bool *fits, mns_error *error)
+{
+    tile_bins *bins = &d->r->bins;
+    if (!d->r->binned || !tile_bins_serve(bins, d->plan, region)) {
+        mns_status status = bin(d, region, error);
+        if (status) return status;
     }
-    if (status || !*fits) return status;
+    *fits = bins->fits;
+    if (!*fits) return MNS_OK;
     d->stats->list_nodes += bins->count;
     if (d->plan->options.measure) {
         if (!tile_bins_lengths(bins, &d->lengths))
@@ -107,5 +109,6 @@ static mns_status bin(draw *d, list_region region, bool *fits, mns_error *error)
 
 mns_status draw_lists(draw *d, list_region region, bool *fits, mns_error *error)
 {
-    return d->plan->features & FEATURE_TILES ? bin(d, region, fits, error) : gather(d, region, fits, error);
+    return d->plan->features & FEATURE_TILES ? bin_or_reuse(d, region, fits, error)
+                                             : gather(d, region, fits, error);
 }

@@ -2,75 +2,25 @@
 
 #include "base/memory.h"
 #include "base/status.h"
+#include "field/kernel.h"
+#include "tile/mask.h"
 
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Cells a side of a tile's mask: pixels in a small tile, a 64th of a large one. */
-static int cells_of(const tile_bins *bins)
-{
-    return bins->shift < 3 ? 1 << bins->shift : 8;
-}
-
-static int cell_shift(const tile_bins *bins)
-{
-    return bins->shift < 3 ? 0 : bins->shift - 3;
-}
-
-static uint64_t full_mask(int cells)
-{
-    return cells == 8 ? ~(uint64_t)0 : ((uint64_t)1 << cells * cells) - 1;
-}
-
-/* Cells [x0, x1] x [y0, y1] of a tile. */
-static uint64_t box_mask(int cells, int x0, int x1, int y0, int y1)
-{
-    uint64_t row = (((uint64_t)1 << (x1 - x0 + 1)) - 1) << x0, mask = 0;
-    for (int y = y0; y <= y1; y++) mask |= row << y * cells;
-    return mask;
-}
-
-/* ---- Cores
- * ----------------------------------------------------------------------------------------------------------
- */
-
-/* Hides the cells [x0, x1] of one row of cells of the region. */
-static void hide_row(tile_bins *bins, int row, int x0, int x1)
-{
-    int cells = cells_of(bins), tile_row = row / cells, line = row % cells;
-    uint64_t *mask = bins->mask + (size_t)tile_row * (size_t)bins->across;
-    for (int tile = x0 / cells; tile <= x1 / cells; tile++) {
-        int from = x0 - tile * cells, to = x1 - tile * cells;
-        if (from < 0) from = 0;
-        if (to > cells - 1) to = cells - 1;
-        mask[tile] |= box_mask(cells, from, to, line, line);
-    }
-}
-
-/* Hides the cells of the band that lie wholly within the core's circle. */
-static void hide_core(tile_bins *bins, const tile_band *band, const tile_core *core)
-{
-    int shift = cell_shift(bins), size = 1 << shift;
-    float x = core->centre[0] - (float)bins->region.x, y = core->centre[1] - (float)bins->region.y;
-    int first = (int)fmaxf(ceilf(y - core->reach), (float)(band->first << bins->shift)) >> shift;
-    int last = (int)fminf(floorf(y + core->reach), (float)((band->past << bins->shift) - 1)) >> shift;
-    for (int row = first; row <= last; row++) {
-        float below = fabsf((float)(row << shift) - y), above = fabsf((float)((row << shift) + size - 1) - y);
-        float off = fmaxf(below, above), square = core->reach * core->reach - off * off;
-        if (!(square > 0)) continue;
-        float half = sqrtf(square);
-        float low = fmaxf(ceilf(x - half), 0),
-              high = fminf(floorf(x + half), (float)((bins->across << bins->shift) - 1));
-        if (low > high) continue;
-        int x0 = ((int)low + size - 1) >> shift, x1 = (((int)high + 1) >> shift) - 1;
-        if (x0 <= x1) hide_row(bins, row, x0, x1);
-    }
-}
-
 /* ---- Balls
  * ----------------------------------------------------------------------------------------------------------
  */
+
+/* What a binning reads, and the entries that its bands have come to together. */
+typedef struct tile_work {
+    const list_order *order;
+    const mns_field *field;
+    const mns_plan *plan;
+    size_t most; /* entries */
+    size_t count;
+} tile_work;
 
 static bool band_reserve(tile_band *band, size_t more)
 {
@@ -83,27 +33,32 @@ static bool band_reserve(tile_band *band, size_t more)
     return true;
 }
 
-/* The outline in pixels of the region. */
+/* An outline's pixels of the band, counted from the region's corner. */
 typedef struct tile_reach {
     int x0, x1, y0, y1;
     float x, y, reach;
 } tile_reach;
 
-static bool reach_of(const tile_bins *bins, const tile_outline *o, tile_reach *r)
+static bool reach_of(const tile_bins *bins, const tile_band *band, const tile_outline *o, tile_reach *r)
 {
-    float width = (float)(bins->region.width - 1), height = (float)(bins->region.height - 1);
-    float x = (float)bins->region.x, y = (float)bins->region.y;
-    float x0 = fmaxf(ceilf(o->low[0] - x), 0), x1 = fminf(floorf(o->high[0] - x), width);
-    float y0 = fmaxf(ceilf(o->low[1] - y), 0), y1 = fminf(floorf(o->high[1] - y), height);
-    if (!(x0 <= x1 && y0 <= y1)) return false;
-    *r = (tile_reach){(int)x0, (int)x1, (int)y0, (int)y1, o->centre[0] - x, o->centre[1] - y, o->reach};
-    return true;
+    const list_region *region = &bins->region;
+    int first = band->first << bins->shift, last = (band->past << bins->shift) - 1;
+    if (last >= region->height) last = region->height - 1;
+    int x0 = o->low[0] - region->x, x1 = o->high[0] - region->x;
+    int y0 = o->low[1] - region->y, y1 = o->high[1] - region->y;
+    *r = (tile_reach){.x0 = x0 > 0 ? x0 : 0,
+                      .x1 = x1 < region->width ? x1 : region->width - 1,
+                      .y0 = y0 > first ? y0 : first,
+                      .y1 = y1 < last ? y1 : last,
+                      .x = o->centre[0] - (float)region->x,
+                      .y = o->centre[1] - (float)region->y,
+                      .reach = o->reach};
+    return r->x0 <= r->x1 && r->y0 <= r->y1;
 }
 
 /* Narrows [*x0, *x1] to the pixels of the rows [y0, y1] that the outline's circle meets. */
 static bool narrow(const tile_reach *r, int y0, int y1, int *x0, int *x1)
 {
-    *x0 = r->x0, *x1 = r->x1;
     if (isinf(r->reach)) return true;
     float off = r->y < (float)y0 ? (float)y0 - r->y : r->y > (float)y1 ? r->y - (float)y1 : 0;
     float square = r->reach * r->reach - off * off;
@@ -114,76 +69,110 @@ static bool narrow(const tile_reach *r, int y0, int y1, int *x0, int *x1)
     return *x0 <= *x1;
 }
 
-/* Puts a ball into the band's tiles in which it meets an open cell. */
+static bool all_hidden(const uint64_t *mask, int count, uint64_t full)
+{
+    for (int i = 0; i < count; i++)
+        if (mask[i] != full) return false;
+    return true;
+}
+
+/* Puts a ball into those tiles of one row in which the pixels [x0, x1] x [y0, y1] hold an open cell; there is
+ * room for the pairs. */
+static void put_row(tile_bins *bins, tile_band *band, uint32_t ball, int x0, int x1, int y0, int y1)
+{
+    int shift = bins->shift, cells = mask_cells(bins), cell = mask_shift(bins), size = 1 << shift;
+    int row = y0 >> shift, top = row << shift;
+    uint32_t base = (uint32_t)row * (uint32_t)bins->across;
+    for (int column = x0 >> shift; column <= x1 >> shift; column++) {
+        uint32_t tile = base + (uint32_t)column;
+        int left = column << shift, from = x0 > left ? x0 - left : 0,
+            to = x1 < left + size ? x1 - left : size - 1;
+        uint64_t box = mask_box(cells, from >> cell, to >> cell, (y0 - top) >> cell, (y1 - top) >> cell);
+        if (!(box & ~bins->mask[tile])) continue;
+        band->pair[band->count++] = (tile_pair){tile, ball};
+        bins->length[tile]++;
+    }
+}
+
+/* Puts a ball into the band's tiles in which it meets an open cell. False: out of memory. */
 static bool put_ball(tile_bins *bins, tile_band *band, uint32_t ball, const tile_reach *r)
 {
-    int shift = bins->shift, cells = cells_of(bins), cell = cell_shift(bins), size = 1 << shift;
-    uint64_t full = full_mask(cells);
-    int row = r->y0 >> shift, last = r->y1 >> shift;
-    if (row < band->first) row = band->first;
-    if (last >= band->past) last = band->past - 1;
-    for (; row <= last; row++) {
+    int shift = bins->shift, size = 1 << shift;
+    uint64_t full = mask_full(mask_cells(bins));
+    int across = (r->x1 >> shift) - (r->x0 >> shift) + 1;
+    for (int row = r->y0 >> shift; row <= r->y1 >> shift; row++) {
+        const uint64_t *mask = bins->mask + (size_t)row * (size_t)bins->across + (r->x0 >> shift);
+        if (all_hidden(mask, across, full)) continue;
         int top = row << shift, y0 = r->y0 > top ? r->y0 : top,
             y1 = r->y1 < top + size - 1 ? r->y1 : top + size - 1;
-        int x0, x1;
+        int x0 = r->x0, x1 = r->x1;
         if (!narrow(r, y0, y1, &x0, &x1)) continue;
-        if (!band_reserve(band, (size_t)(x1 >> shift) - (size_t)(x0 >> shift) + 1)) return false;
-        uint32_t base = (uint32_t)row * (uint32_t)bins->across;
-        for (int column = x0 >> shift; column <= x1 >> shift; column++) {
-            uint64_t hidden = bins->mask[base + (uint32_t)column];
-            if (hidden == full) continue;
-            if (hidden) {
-                int left = column << shift, from = x0 > left ? x0 - left : 0,
-                    to = x1 < left + size ? x1 - left : size - 1;
-                uint64_t box =
-                    box_mask(cells, from >> cell, to >> cell, (y0 - top) >> cell, (y1 - top) >> cell);
-                if (!(box & ~hidden)) continue;
-            }
-            band->pair[band->count++] = (tile_pair){base + (uint32_t)column, ball};
-            bins->length[base + (uint32_t)column]++;
-        }
+        if (!band_reserve(band, (size_t)across)) return false;
+        put_row(bins, band, ball, x0, x1, y0, y1);
     }
     return true;
+}
+
+static double core_radius(const tile_work *work, size_t index)
+{
+    const mns_field *field = work->field;
+    double radius = field_radius(field, index), strength = field_strength(field, index);
+    if (!(work->plan->features & FEATURE_CORE_RADII)) return work->plan->core_ratio * radius;
+    return strength > field->iso ? radius * kernel_core_radius(field->kernel, field->iso / strength) : 0;
+}
+
+/* One ball of the band's: what lies before it is hidden first. */
+static bool take_ball(tile_bins *bins, tile_band *band, const tile_work *work, uint32_t place)
+{
+    tile_reach r;
+    if (!reach_of(bins, band, &bins->outline[place], &r)) return true;
+    mask_hide_until(bins, band, list_key_distance(work->order->key[place]) - bins->slack);
+    size_t before = band->count;
+    if (!put_ball(bins, band, place, &r)) return false;
+    if (band->count == before || !(work->plan->features & FEATURE_CORE)) return true;
+    const list_ball *ball = list_ball_at(work->order, place);
+    tile_core core;
+    if (!tile_core_of(&bins->lens, ball->position, core_radius(work, ball->index), &core)) return true;
+    return mask_wait(band, &core);
 }
 
 /* ---- Bands
  * ----------------------------------------------------------------------------------------------------------
  */
 
-/* Cells beside the region count as hidden. */
-static void open_masks(tile_bins *bins, const tile_band *band)
+enum { BAND_BLOCK = 1024 };
+
+/* The places of [first, past) whose outlines meet the pixel rows [low, high], without a branch a ball. */
+static size_t pick(const tile_outline *outline, size_t first, size_t past, int low, int high,
+                   uint32_t place[BAND_BLOCK])
 {
-    int cells = cells_of(bins), shift = cell_shift(bins);
-    for (int row = band->first; row < band->past; row++)
-        for (int column = 0; column < bins->across; column++) {
-            int wide = bins->region.width - (column << bins->shift),
-                high = bins->region.height - (row << bins->shift);
-            int last_x = (wide - 1) >> shift, last_y = (high - 1) >> shift;
-            uint64_t inside = box_mask(cells, 0, last_x < cells ? last_x : cells - 1, 0,
-                                       last_y < cells ? last_y : cells - 1);
-            size_t tile = (size_t)row * (size_t)bins->across + (size_t)column;
-            bins->mask[tile] = full_mask(cells) & ~inside;
-            bins->length[tile] = 0;
-        }
+    size_t count = 0;
+    for (size_t i = first; i < past; i++) {
+        place[count] = (uint32_t)i;
+        count += (outline[i].low[1] <= high) & (outline[i].high[1] >= low);
+    }
+    return count;
 }
 
-static void bin_band(tile_bins *bins, tile_band *band, size_t balls)
+static void bin_band(tile_bins *bins, tile_band *band, tile_work *work)
 {
-    size_t next = 0;
     int low = (band->first << bins->shift) + bins->region.y,
         high = (band->past << bins->shift) - 1 + bins->region.y;
-    band->count = 0;
-    open_masks(bins, band);
-    for (size_t ball = 0; ball < balls && !band->failed; ball++) {
-        if (bins->rows[2 * ball] > high || bins->rows[2 * ball + 1] < low) continue;
-        const tile_outline *o = &bins->outline[ball];
-        for (; next < bins->core_count; next++) {
-            const tile_core *core = &bins->core[(uint32_t)bins->key[next]];
-            if (core->depth > o->near) break;
-            hide_core(bins, band, core);
-        }
-        tile_reach r;
-        if (reach_of(bins, o, &r) && !put_ball(bins, band, (uint32_t)ball, &r)) band->failed = true;
+    size_t balls = work->order->count, all = 0;
+    uint32_t place[BAND_BLOCK];
+    band->count = band->core_count = 0;
+    band->failed = false;
+    mask_open(bins, band);
+    for (size_t first = 0; first < balls && all < work->most; first += BAND_BLOCK) {
+        size_t past = first + BAND_BLOCK < balls ? first + BAND_BLOCK : balls, before = band->count;
+        size_t count = pick(bins->outline, first, past, low, high, place);
+        for (size_t i = 0; i < count; i++)
+            if (!take_ball(bins, band, work, place[i])) {
+                band->failed = true;
+                return;
+            }
+#pragma omp atomic capture
+        all = work->count += band->count - before;
     }
 }
 
@@ -194,8 +183,8 @@ static int choose_shift(const tile_bins *bins, size_t balls)
     size_t step = balls / 1024 + 1, count = 0;
     for (size_t i = 0; i < balls; i += step) {
         const tile_outline *o = &bins->outline[i];
-        if (!isfinite(o->reach)) continue;
-        sum += 2 * o->reach;
+        if (isinf(o->reach)) continue;
+        sum += 2 * (double)o->reach;
         count++;
     }
     double wide = count ? sum / (double)count : 64;
@@ -237,27 +226,38 @@ static void place_bands(tile_bins *bins)
     }
 }
 
-mns_status tile_bins_make(tile_bins *bins, const list_order *order, list_region region, mns_error *error)
+mns_status tile_bins_make(tile_bins *bins, const list_order *order, const mns_field *field,
+                          const mns_plan *plan, list_region region, mns_error *error)
 {
+    tile_work work = {order, field, plan, plan->pool_most < TILE_LAST ? plan->pool_most : TILE_LAST, 0};
     bins->region = region;
+    bins->fits = false;
     bins->shift = choose_shift(bins, order->count);
     bins->across = (region.width + (1 << bins->shift) - 1) >> bins->shift;
     bins->down = (region.height + (1 << bins->shift) - 1) >> bins->shift;
     mns_status status = reserve(bins, error);
     if (status) return status;
     bool failed = false;
-#pragma omp parallel for schedule(dynamic, 1) reduction(|| : failed) if (order->count > 4096)
+#pragma omp parallel for schedule(dynamic, 1) reduction(|| : failed) if (order->count > BIN_ALONE)
     for (int i = 0; i < bins->band_count; i++) {
         tile_band *band = &bins->band[i];
         band->first = (int)((long)bins->down * i / bins->band_count);
         band->past = (int)((long)bins->down * (i + 1) / bins->band_count);
-        band->failed = false;
-        bin_band(bins, band, order->count);
+        bin_band(bins, band, &work);
         failed = failed || band->failed;
     }
     if (failed) return status_no_memory(error, "while binning the balls");
     place_bands(bins);
+    bins->fits = bins->count < work.most;
     return MNS_OK;
+}
+
+bool tile_bins_serve(const tile_bins *bins, const mns_plan *plan, list_region region)
+{
+    const list_region *last = &bins->region;
+    return bins->fits && tile_outlines_serve(bins, plan) && bins->count < plan->pool_most &&
+           last->x == region.x && last->y == region.y && last->width == region.width &&
+           last->height == region.height;
 }
 
 void tile_bins_write(const tile_bins *bins, uint32_t *entry, uint32_t *head)
@@ -298,10 +298,8 @@ bool tile_bins_lengths(const tile_bins *bins, list_lengths *lengths)
 
 void tile_bins_free(tile_bins *bins)
 {
-    free(bins->outline), free(bins->rows), free(bins->core), free(bins->key), free(bins->scratch),
-        free(bins->digits);
-    free(bins->mask), free(bins->length);
-    for (int i = 0; i < bins->band_capacity; i++) free(bins->band[i].pair);
+    free(bins->outline), free(bins->mask), free(bins->length);
+    for (int i = 0; i < bins->band_capacity; i++) free(bins->band[i].pair), free(bins->band[i].core);
     free(bins->band);
     *bins = (tile_bins){0};
 }

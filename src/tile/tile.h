@@ -3,7 +3,8 @@
  *
  * Balls are taken nearest first. Each tile keeps a mask of the cells that cores have hidden so far; a ball
  * goes to the tiles in which its outline meets a cell that is still open, so that lists end soon after the
- * first closed layer of cores.
+ * first closed layer of cores. What is hidden itself hides nothing new: only balls that some tile takes lay
+ * down their core.
  */
 #ifndef MNS_TILE_TILE_H
 #define MNS_TILE_TILE_H
@@ -14,6 +15,9 @@
 /* An entry of a tile's list is a ball's place in the order; the last of a tile carries this bit. */
 #define TILE_LAST 0x80000000u
 
+/* Fewer balls are binned by one thread; see ORDER_ALONE. */
+enum { BIN_ALONE = 4096 };
+
 typedef struct tile_pair {
     uint32_t tile, ball;
 } tile_pair;
@@ -23,20 +27,21 @@ typedef struct tile_band {
     int first, past;               /* rows */
     tile_pair *pair;               /* in the order of the balls */
     size_t count, capacity, begin; /* begin: of the band's entries in the lists */
-    bool failed;                   /* out of memory */
+    tile_core *core;               /* a heap, nearest depth first: of listed balls, not laid down yet */
+    size_t core_count, core_capacity;
+    bool failed; /* out of memory */
 } tile_band;
 
 typedef struct tile_bins {
+    tile_lens lens;
     list_region region;
-    int shift;             /* a tile is 1 << shift pixels wide and high */
-    int across, down;      /* tiles */
-    size_t count;          /* entries of all lists */
+    int shift;        /* a tile is 1 << shift pixels wide and high */
+    int across, down; /* tiles */
+    size_t count;     /* entries of all lists */
+    bool fits;        /* fewer than the plan allows; otherwise there are no lists, and count is but a bound */
+    float slack;      /* no ray enters a ball before its effective distance less this */
     tile_outline *outline; /* of the order's balls */
-    uint16_t *rows;        /* first and last pixel row of each */
-    tile_core *core;
-    uint64_t *key, *scratch; /* of the cores, by depth */
-    uint32_t *digits;
-    size_t core_count, ball_capacity;
+    size_t ball_capacity;
     uint64_t *mask;   /* a tile */
     uint32_t *length; /* a tile */
     size_t tile_capacity;
@@ -44,11 +49,17 @@ typedef struct tile_bins {
     int band_count, band_capacity;
 } tile_bins;
 
-/* Outlines and cores of the order's balls, once a frame. Errors: MEMORY. */
+/* Outlines of the order's balls, once a frame. Errors: MEMORY. */
 mns_status tile_outlines_make(tile_bins *bins, const list_order *order, const mns_field *field,
                               const mns_plan *plan, mns_error *error);
-/* Bins them over a region of the frame. Errors: MEMORY. */
-mns_status tile_bins_make(tile_bins *bins, const list_order *order, list_region region, mns_error *error);
+/* Whether the outlines that were made last are also this plan's, the order being the same. */
+bool tile_outlines_serve(const tile_bins *bins, const mns_plan *plan);
+/* Bins them over a region of the frame; see bins->fits. The same result for any number of threads. Errors:
+ * MEMORY. */
+mns_status tile_bins_make(tile_bins *bins, const list_order *order, const mns_field *field,
+                          const mns_plan *plan, list_region region, mns_error *error);
+/* Whether the bins that were made last are also this plan's of that region, the order being the same. */
+bool tile_bins_serve(const tile_bins *bins, const mns_plan *plan, list_region region);
 /* Writes the lists: entry[0] is no list's, bins->count follow; head[t] is where tile t's list begins, 0 for
  * none. */
 void tile_bins_write(const tile_bins *bins, uint32_t *entry, uint32_t *head);
