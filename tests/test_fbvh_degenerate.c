@@ -149,6 +149,32 @@ static void balls_that_shrink_towards_a_point(void **state)
     build_all(field_of(&b, 0.2), 50, true);
 }
 
+/* Floats place these to a tenth of their radius at best: boxes and reach must allow for it. */
+static void small_balls_far_apart(void **state)
+{
+    (void)state;
+    balls b = balls_make(160);
+    for (size_t i = 0; i < 160; i++) {
+        for (unsigned a = 0; a < 3; a++)
+            b.at[3 * i + a] = (i / 40 >> a & 1 ? 1e4 : -1e4) + 0.012 * noise(i, a) + 1e-5 * (double)(i % 7);
+        b.radius[i] = 0.006;
+    }
+    build_all(field_of(&b, 0.2), 300, true);
+}
+
+/* The bound on the tight radius is met exactly where balls coincide. */
+static void equal_balls_on_one_point_for_every_kernel(void **state)
+{
+    (void)state;
+    for (int kernel = 1; kernel < MNS_KERNEL_COUNT; kernel++) {
+        balls b = balls_make(3);
+        for (size_t i = 0; i < 9; i++) b.at[i] = 0;
+        mns_field *field = field_of(&b, 0.2);
+        field->kernel = (mns_kernel)kernel;
+        build_all(field, 600, true);
+    }
+}
+
 static void giant_among_dwarfs(void **state)
 {
     (void)state;
@@ -241,6 +267,8 @@ int main(void)
         cmocka_unit_test(balls_in_a_row),
         cmocka_unit_test(ten_thousand_on_one_point),
         cmocka_unit_test(balls_that_shrink_towards_a_point),
+        cmocka_unit_test(small_balls_far_apart),
+        cmocka_unit_test(equal_balls_on_one_point_for_every_kernel),
         cmocka_unit_test(giant_among_dwarfs),
         cmocka_unit_test(giant_among_a_million_dwarfs),
         cmocka_unit_test(small_blocks_make_small_trees),

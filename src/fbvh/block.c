@@ -48,7 +48,7 @@ WORK_WIDE void work_take(const work_set *set, const work_block *block, const flo
     float slack = set->slack, l0 = lo[0], l1 = lo[1], l2 = lo[2], h0 = hi[0], h1 = hi[1], h2 = hi[2];
     float x0 = s->lo[0], y0 = s->lo[1], z0 = s->lo[2], x1 = s->hi[0], y1 = s->hi[1], z1 = s->hi[2];
     const float *px = block->at[0], *py = block->at[1], *pz = block->at[2];
-#pragma omp simd reduction(+ : positive) reduction(min : x0, y0, z0) reduction(max : x1, y1, z1)
+    WORK_SIMD(reduction(+ : positive) reduction(min : x0, y0, z0) reduction(max : x1, y1, z1))
     for (int k = 0; k < n; k++) {
         float x = px[k], y = py[k], z = pz[k], radius = block->radius[k];
         float dx = work_most(work_most(l0 - x, x - h0), 0), dy = work_most(work_most(l1 - y, y - h1), 0);
@@ -75,7 +75,7 @@ WORK_WIDE static float nearly_value(const work_block *block, float x, float y, f
 {
     float sum = 0;
     int n = work_lanes(block);
-#pragma omp simd reduction(+ : sum)
+    WORK_SIMD(reduction(+ : sum))
     for (int k = 0; k < n; k++) {
         float dx = block->at[0][k] - x, dy = block->at[1][k] - y, dz = block->at[2][k] - z,
               r = block->radius[k];

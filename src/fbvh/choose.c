@@ -38,7 +38,7 @@ WORK_WIDE static void compare(const work_set *set, const work_block *block, int 
     for (int i = 1; i < b->count; i++) {
         float plane = plane_of(b, axis, i);
         int enter = 0, leave = 0, n = work_lanes(block);
-#pragma omp simd reduction(+ : enter, leave)
+        WORK_SIMD(reduction(+ : enter, leave))
         for (int k = 0; k < n; k++) {
             float reach = block->radius[k] * WORK_GROW + slack;
             enter += at[k] - reach <= plane;

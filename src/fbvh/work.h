@@ -21,6 +21,14 @@ enum { WORK_SPANS_AN_OCTAVE = 32, WORK_OCTAVES = 24, WORK_SPANS = WORK_SPANS_AN_
 #define WORK_WIDE
 #endif
 
+/* Least and greatest of many, in any order. (Clang warns that it cannot, and loses some time.) */
+#if defined(__clang__)
+#define WORK_SIMD(clauses)
+#else
+#define WORK_SIMD(clauses) WORK_PRAGMA(omp simd clauses)
+#define WORK_PRAGMA(text)  _Pragma(#text)
+#endif
+
 /* Balls side by side, for loops to take several at a time. Up to a multiple of WORK_LANES follow some of
  * strength 0, too far off to reach anything. */
 enum { WORK_BLOCK = 1024, WORK_LANES = 8 };
