@@ -55,14 +55,14 @@ void main()
     if (found == PIECE_HIT) {
 #ifdef OVERLAPS
         float stop;
-        slots_fill(ray, tree_leaf_at(got.leaf, 0.0, FAR_AWAY), stop);
+        slots_fill(ray, tree_leaf_at(got.leaf, got.t, got.t), stop);
         slot_count = min(slot_count, SLOTS);
         active_from = got.t;
 #endif
         Surface surface = surface_at(ray, got.t);
 #if SOLVER == SOLVER_EXACT
         // A Newton step that is not small is no correction: double shall decide.
-        if (!(abs(surface.shift) <= 1.0e-2 * surface.radius)) found = PIECE_OPEN;
+        if (!(abs(surface.shift) <= 1.0e-4 * surface.radius)) found = PIECE_OPEN;
 #else
         surface.shift = 0.0;
 #endif

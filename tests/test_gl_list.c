@@ -2,8 +2,7 @@
  * normals to the last digits of a float, for every kernel, from every kind of place, whatever way the lists
  * take. */
 #include "render/render.h"
-#include "support/brute_image.h"
-#include "support/draw_fixture.h"
+#include "support/exact.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -15,119 +14,22 @@
 
 #include <cmocka.h>
 
-enum { WIDE = 160, HIGH = 120, BALLS_MOST = 2000, RAYS = 2000 };
-
-/* ---- Fields ---- */
-
-/* Parts of a field that is made at random: the unit cube around `offset`. */
-typedef struct cloud {
-    size_t count;
-    double offset;
-    double radius_low, radius_high;     /* log-uniform; equal: one radius for all */
-    double strength_low, strength_high; /* uniform, both 0: 1 */
-} cloud;
-
-static mns_field *cloud_field(const cloud *c, mns_kernel kernel)
-{
-    static double position[3 * BALLS_MOST], radius[BALLS_MOST], strength[BALLS_MOST];
-    uint64_t random = 7 + c->count;
-    bool one_radius = c->radius_low == c->radius_high, strong = c->strength_low != c->strength_high;
-    assert_true(c->count <= BALLS_MOST);
-    for (size_t i = 0; i < c->count; i++) {
-        for (int a = 0; a < 3; a++) position[3 * i + (size_t)a] = c->offset + draw_random(&random);
-        radius[i] = c->radius_low * pow(c->radius_high / c->radius_low, draw_random(&random));
-        strength[i] = c->strength_low + (c->strength_high - c->strength_low) * draw_random(&random);
-    }
-    return draw_field(c->count, position, one_radius ? NULL : radius, c->radius_low, strong ? strength : NULL,
-                      kernel);
-}
-
-static const cloud plain = {600, 0, 0.11, 0.11, 0, 0};
-static const cloud radii = {500, 0, 0.02, 0.25, 0, 0};
-static const cloud signs = {500, 0, 0.05, 0.2, -1.5, 2.5};
-static const cloud moved = {600, 1e6, 0.11, 0.11, 0, 0};
-
-/* ---- One picture against the oracle ---- */
-
-/* What is wrong with a picture, as one line of words and numbers. */
-static void fail_report(const char *what, mns_kernel kernel, const brute_report *r)
-{
-    fail_msg(
-        "%s, %s: %zu rays, %zu hits, %zu missed, %zu invented, %zu later, %zu undecided, %zu near, t p99.9 "
-        "%.3g max %.3g, normal p99.9 %.3g, gap %.3g",
-        what, mns_kernel_name(kernel), r->rays, r->hits, r->missed, r->invented, r->later, r->undecided,
-        r->near, r->t_p999, r->t_max, r->normal_p999, r->gap_most);
-}
-
-static brute_report measure(const mns_field *field, const mns_view *view, const mns_image *image)
-{
-    brute *oracle = brute_create(field);
-    brute_tally *tally = brute_tally_create();
-    mns_view resolved;
-    mns_error error;
-    assert_true(oracle && tally);
-    if (mns_view_resolve(view, field, &resolved, &error) != MNS_OK) fail_msg("%s", error.text);
-    assert_true(brute_tally_add(tally, oracle, &resolved, image, RAYS, 0x1p-40, 1));
-    brute_report report = brute_tally_report(tally);
-    brute_tally_destroy(tally);
-    brute_destroy(oracle);
-    return report;
-}
-
-/* Draws with the exact solver and compares. The bounds are those of the design: 2e-6 of t at p99.9 (a float's
- * rounding of t, of the ray and of the positions, about 2^-22 each) and a tenth of a degree. */
-static brute_report expect_exact(draw_fixture *d, const char *what, const mns_field *field,
-                                 const mns_view *view)
-{
-    mns_image *image = draw_image(d, field, view, NULL, NULL);
-    brute_report r = measure(field, view, image);
-    mns_field_info info;
-    mns_field_get_info(field, &info);
-    mns_image_destroy(image);
-    if (r.missed || r.invented || r.later || r.undecided > r.rays / 1000 || r.near > r.rays / 1000 ||
-        r.t_p999 > 2e-6 || r.normal_p999 > 0.1)
-        fail_report(what, info.kernel, &r);
-    draw_fixture_check(d);
-    return r;
-}
-
-static mns_view near_view(void)
-{
-    return draw_view((const double[3]){0.5, 0.8, 2.4}, (const double[3]){0.5, 0.5, 0.5}, 40, WIDE, HIGH);
-}
-
-static void expect_cloud(draw_fixture *d, const char *what, const cloud *c, mns_kernel kernel,
-                         const mns_view *view)
-{
-    mns_field *field = cloud_field(c, kernel);
-    brute_report r = expect_exact(d, what, field, view);
-    if (r.hits < r.rays / 4) fail_msg("%s: only %zu of %zu rays hit", what, r.hits, r.rays);
-    mns_field_destroy(field);
-}
-
 /* ---- Every kernel ---- */
-
-/* Both back ends have the same rasteriser behind them, and compiling the variants takes longest: through the
- * second one, a kernel of either kind of search is enough. */
-static int kernel_step(const draw_fixture *d)
-{
-    return d->gl.backend == MNS_BACKEND_OSMESA ? MNS_KERNEL_PERLIN - MNS_KERNEL_POLY2 : 1;
-}
 
 static void scattered_balls_are_exact_with_every_kernel(void **state)
 {
-    mns_view view = near_view();
-    for (int kernel = MNS_KERNEL_POLY2; kernel < MNS_KERNEL_COUNT; kernel += kernel_step(*state))
-        expect_cloud(*state, "scattered", &plain, (mns_kernel)kernel, &view);
+    mns_view view = exact_view();
+    for (int kernel = MNS_KERNEL_POLY2; kernel < MNS_KERNEL_COUNT; kernel += exact_kernel_step(*state))
+        exact_expect_cloud(*state, NULL, "scattered", &cloud_plain, (mns_kernel)kernel, &view);
 }
 
 static void dense_balls_are_exact_with_every_kernel(void **state)
 {
-    mns_view view =
-        draw_view((const double[3]){1, 0.9, 2.6}, (const double[3]){1, 0.25, 0.5}, 40, WIDE, HIGH);
-    for (int kernel = MNS_KERNEL_POLY2; kernel < MNS_KERNEL_COUNT; kernel += kernel_step(*state)) {
+    mns_view view = draw_view((const double[3]){1, 0.9, 2.6}, (const double[3]){1, 0.25, 0.5}, 40, EXACT_WIDE,
+                              EXACT_HIGH);
+    for (int kernel = MNS_KERNEL_POLY2; kernel < MNS_KERNEL_COUNT; kernel += exact_kernel_step(*state)) {
         mns_field *field = draw_generated("dense:700", (mns_kernel)kernel);
-        brute_report r = expect_exact(*state, "dense", field, &view);
+        brute_report r = exact_expect(*state, NULL, "dense", field, &view);
         assert_true(r.hits > r.rays / 4);
         mns_field_destroy(field);
     }
@@ -136,48 +38,29 @@ static void dense_balls_are_exact_with_every_kernel(void **state)
 static void strengths_of_both_signs_are_exact(void **state)
 {
     static const mns_kernel kernels[] = {MNS_KERNEL_POLY3, MNS_KERNEL_WYVILL, MNS_KERNEL_PERLIN};
-    mns_view view = near_view();
-    for (size_t i = 0; i < 3; i++) expect_cloud(*state, "strengths of both signs", &signs, kernels[i], &view);
+    mns_view view = exact_view();
+    for (size_t i = 0; i < 3; i++)
+        exact_expect_cloud(*state, NULL, "strengths of both signs", &cloud_signs, kernels[i], &view);
 }
 
 static void radii_over_a_decade_are_exact(void **state)
 {
-    mns_view view = near_view();
-    expect_cloud(*state, "mixed radii", &radii, MNS_KERNEL_POLY3, &view);
-    expect_cloud(*state, "mixed radii", &radii, MNS_KERNEL_WENDLAND, &view);
+    mns_view view = exact_view();
+    exact_expect_cloud(*state, NULL, "mixed radii", &cloud_radii, MNS_KERNEL_POLY3, &view);
+    exact_expect_cloud(*state, NULL, "mixed radii", &cloud_radii, MNS_KERNEL_WENDLAND, &view);
 }
 
 /* ---- Every kind of place ---- */
-
-/* A point of the field where f is on the wanted side of L, and some ball is near. */
-static void find_eye(const mns_field *field, bool inside, double eye[3])
-{
-    brute *oracle = brute_create(field);
-    uint64_t random = 3;
-    mns_field_info info;
-    mns_field_get_info(field, &info);
-    for (int tries = 0; tries < 10000; tries++) {
-        long double at[3];
-        for (int a = 0; a < 3; a++)
-            at[a] = info.lo[a] + (info.hi[a] - info.lo[a]) * (0.3 + 0.4 * draw_random(&random));
-        for (int a = 0; a < 3; a++) eye[a] = (double)at[a], at[a] = eye[a];
-        long double value = brute_value(oracle, at);
-        if (inside ? value < info.iso * 1.5 : value < 0.01 || value > 0.8 * info.iso) continue;
-        brute_destroy(oracle);
-        return;
-    }
-    fail_msg("no eye found");
-}
 
 static void an_eye_inside_a_ball_but_outside_the_surface_is_exact(void **state)
 {
     static const mns_kernel kernels[] = {MNS_KERNEL_POLY3, MNS_KERNEL_PERLIN};
     for (size_t i = 0; i < 2; i++) {
-        mns_field *field = cloud_field(&plain, kernels[i]);
-        mns_view view = near_view();
+        mns_field *field = cloud_field(&cloud_plain, kernels[i]);
+        mns_view view = exact_view();
         view.fov = 90;
-        find_eye(field, false, view.eye);
-        brute_report r = expect_exact(*state, "eye inside a ball", field, &view);
+        exact_eye(field, false, view.eye);
+        brute_report r = exact_expect(*state, NULL, "eye inside a ball", field, &view);
         assert_true(r.hits > r.rays / 2);
         mns_field_destroy(field);
     }
@@ -186,13 +69,13 @@ static void an_eye_inside_a_ball_but_outside_the_surface_is_exact(void **state)
 static void an_eye_inside_the_surface_sees_the_way_out(void **state)
 {
     static const mns_kernel kernels[] = {MNS_KERNEL_POLY2, MNS_KERNEL_WENDLAND};
-    static const cloud *const clouds[] = {&plain, &signs};
+    static const cloud *const clouds[] = {&cloud_plain, &cloud_signs};
     for (size_t i = 0; i < 2; i++) {
         mns_field *field = cloud_field(clouds[i], kernels[i]);
-        mns_view view = near_view();
+        mns_view view = exact_view();
         view.fov = 90;
-        find_eye(field, true, view.eye);
-        brute_report r = expect_exact(*state, "eye inside the surface", field, &view);
+        exact_eye(field, true, view.eye);
+        brute_report r = exact_expect(*state, NULL, "eye inside the surface", field, &view);
         assert_true(r.hits == r.rays); /* there is always a way out */
         mns_field_destroy(field);
     }
@@ -206,17 +89,18 @@ static void a_far_eye_is_exact_to_a_small_part_of_a_radius(void **state)
         double radii_away;
         const cloud *cloud;
         mns_kernel kernel;
-    } cases[] = {
-        {1e4, &plain, MNS_KERNEL_POLY3}, {1e5, &plain, MNS_KERNEL_WENDLAND}, {1e5, &signs, MNS_KERNEL_POLY3}};
+    } cases[] = {{1e4, &cloud_plain, MNS_KERNEL_POLY3},
+                 {1e5, &cloud_plain, MNS_KERNEL_WENDLAND},
+                 {1e5, &cloud_signs, MNS_KERNEL_POLY3}};
     for (size_t i = 0; i < 3; i++) {
         mns_field *field = cloud_field(cases[i].cloud, cases[i].kernel);
-        double distance = cases[i].radii_away * plain.radius_low;
-        mns_view view = near_view();
+        double distance = cases[i].radii_away * cloud_plain.radius_low;
+        mns_view view = exact_view();
         for (int a = 0; a < 3; a++) view.eye[a] = 0.5 + distance * (const double[3]){0.48, 0.6, 0.64}[a];
         view.fov = 2 * atan(0.8 / distance) * 180 / 3.14159265358979323846;
-        brute_report r = expect_exact(*state, "far eye", field, &view);
+        brute_report r = exact_expect(*state, NULL, "far eye", field, &view);
         assert_true(r.hits > r.rays / 4);
-        double error = r.t_p999 * distance / plain.radius_low;
+        double error = r.t_p999 * distance / cloud_plain.radius_low;
         if (error > 1e-4)
             fail_msg("%g radii away: t is off by %g of a radius at p99.9", cases[i].radii_away, error);
         mns_field_destroy(field);
@@ -225,18 +109,18 @@ static void a_far_eye_is_exact_to_a_small_part_of_a_radius(void **state)
 
 static void a_field_far_from_zero_is_exact(void **state)
 {
-    mns_view view = near_view();
-    for (int a = 0; a < 3; a++) view.eye[a] += moved.offset, view.look_at[a] += moved.offset;
-    expect_cloud(*state, "offset 1e6", &moved, MNS_KERNEL_POLY3, &view);
-    expect_cloud(*state, "offset 1e6", &moved, MNS_KERNEL_PERLIN, &view);
+    mns_view view = exact_view();
+    for (int a = 0; a < 3; a++) view.eye[a] += cloud_moved.offset, view.look_at[a] += cloud_moved.offset;
+    exact_expect_cloud(*state, NULL, "offset 1e6", &cloud_moved, MNS_KERNEL_POLY3, &view);
+    exact_expect_cloud(*state, NULL, "offset 1e6", &cloud_moved, MNS_KERNEL_PERLIN, &view);
 }
 
 static void a_very_wide_field_of_view_is_exact(void **state)
 {
-    mns_view view =
-        draw_view((const double[3]){0.5, 0.5, 1.3}, (const double[3]){0.5, 0.5, 0.5}, 150, WIDE, HIGH);
-    mns_field *field = cloud_field(&plain, MNS_KERNEL_POLY4);
-    brute_report r = expect_exact(*state, "150 degrees", field, &view);
+    mns_view view = draw_view((const double[3]){0.5, 0.5, 1.3}, (const double[3]){0.5, 0.5, 0.5}, 150,
+                              EXACT_WIDE, EXACT_HIGH);
+    mns_field *field = cloud_field(&cloud_plain, MNS_KERNEL_POLY4);
+    brute_report r = exact_expect(*state, NULL, "150 degrees", field, &view);
     assert_true(r.hits > 100);
     mns_field_destroy(field);
 }
@@ -246,10 +130,10 @@ static void a_very_wide_field_of_view_is_exact(void **state)
 static void one_ball_is_a_sphere(void **state)
 {
     static const double centre[3] = {0.2, -0.1, 0.3};
-    mns_view view = draw_view((const double[3]){0, 1, 3}, centre, 45, WIDE, HIGH);
+    mns_view view = draw_view((const double[3]){0, 1, 3}, centre, 45, EXACT_WIDE, EXACT_HIGH);
     for (int kernel = MNS_KERNEL_POLY2; kernel < MNS_KERNEL_COUNT; kernel += 4) {
         mns_field *field = draw_field(1, centre, NULL, 1, NULL, (mns_kernel)kernel);
-        brute_report r = expect_exact(*state, "one ball", field, &view);
+        brute_report r = exact_expect(*state, NULL, "one ball", field, &view);
         assert_true(r.hits > r.rays / 4);
         mns_field_destroy(field);
     }
@@ -262,10 +146,10 @@ static void coincident_balls_add_up(void **state)
         position[3 * i] = 0.2, position[3 * i + 1] = -0.1, position[3 * i + 2] = 0.3;
         strength[i] = i % 2 ? -0.5 : 0.75;
     }
-    mns_view view = draw_view((const double[3]){0, 1, 3}, position, 45, WIDE, HIGH);
+    mns_view view = draw_view((const double[3]){0, 1, 3}, position, 45, EXACT_WIDE, EXACT_HIGH);
     for (int signed_too = 0; signed_too < 2; signed_too++) {
         mns_field *field = draw_field(50, position, NULL, 1, signed_too ? strength : NULL, MNS_KERNEL_WYVILL);
-        brute_report r = expect_exact(*state, "coincident balls", field, &view);
+        brute_report r = exact_expect(*state, NULL, "coincident balls", field, &view);
         assert_true(r.hits > r.rays / 4);
         mns_field_destroy(field);
     }
@@ -273,11 +157,11 @@ static void coincident_balls_add_up(void **state)
 
 static void an_empty_field_is_background(void **state)
 {
-    mns_view view = near_view();
+    mns_view view = exact_view();
     mns_field *field = draw_field(0, NULL, NULL, 1, NULL, MNS_KERNEL_POLY3);
     mns_image *image = draw_image(*state, field, &view, NULL, NULL);
     assert_int_equal(draw_count_hits(image), 0);
-    for (size_t i = 0; i < (size_t)WIDE * HIGH; i++) {
+    for (size_t i = 0; i < (size_t)EXACT_WIDE * EXACT_HIGH; i++) {
         assert_true(image->t[i] > 0 && image->t_lo[i] == 0 && image->certain[i] == 1);
         for (size_t c = 0; c < 4; c++) assert_true(image->rgba[4 * i + c] == 1);
         for (size_t c = 0; c < 3; c++) assert_true(image->normal[3 * i + c] == 0);
@@ -290,16 +174,16 @@ static void an_empty_field_is_background(void **state)
 static void balls_behind_the_eye_are_not_seen(void **state)
 {
     draw_fixture *d = *state;
-    mns_view view = near_view();
+    mns_view view = exact_view();
     view.look_at[2] = 5; /* away from the cube */
-    mns_field *field = cloud_field(&plain, MNS_KERNEL_POLY3);
+    mns_field *field = cloud_field(&cloud_plain, MNS_KERNEL_POLY3);
     mns_image *image = draw_image(d, field, &view, NULL, NULL);
     assert_int_equal(draw_count_hits(image), 0);
     assert_int_equal(d->stats.balls_in_view, 0);
     mns_image_destroy(image);
     mns_field_destroy(field);
     view.eye[2] = 0.5, view.fov = 60; /* half the balls behind it */
-    expect_cloud(d, "half behind the eye", &plain, MNS_KERNEL_POLY3, &view);
+    exact_expect_cloud(d, NULL, "half behind the eye", &cloud_plain, MNS_KERNEL_POLY3, &view);
 }
 
 /* ---- Ways that must not matter ---- */
@@ -309,7 +193,7 @@ static void balls_behind_the_eye_are_not_seen(void **state)
 static void expect_same_hits(const mns_image *a, const mns_image *b)
 {
     size_t hits = 0, different = 0;
-    for (size_t i = 0; i < (size_t)WIDE * HIGH; i++) {
+    for (size_t i = 0; i < (size_t)EXACT_WIDE * EXACT_HIGH; i++) {
         assert_int_equal(isfinite(a->t[i]) != 0, isfinite(b->t[i]) != 0);
         assert_true(a->certain[i] == b->certain[i]);
         if (!isfinite(a->t[i])) continue;
@@ -323,8 +207,8 @@ static void expect_same_hits(const mns_image *a, const mns_image *b)
 static void the_papers_gathering_gives_the_same_picture(void **state)
 {
     draw_fixture *d = *state;
-    static const cloud *const clouds[] = {&plain, &radii};
-    mns_view view = near_view();
+    static const cloud *const clouds[] = {&cloud_plain, &cloud_radii};
+    mns_view view = exact_view();
     for (size_t i = 0; i < 2; i++) {
         mns_field *field = cloud_field(clouds[i], MNS_KERNEL_POLY3);
         mns_image *early = draw_image(d, field, &view, NULL, NULL);
@@ -342,9 +226,9 @@ static void the_papers_gathering_gives_the_same_picture(void **state)
 static void reading_by_texels_or_by_storage_blocks_gives_the_same_bits(void **state)
 {
     draw_fixture *d = *state;
-    static const cloud *const clouds[] = {&plain, &radii, &signs};
+    static const cloud *const clouds[] = {&cloud_plain, &cloud_radii, &cloud_signs};
     int texels = d->renderer->device.limits.max_texture_buffer;
-    mns_view view = near_view();
+    mns_view view = exact_view();
     for (size_t i = 0; i < 3; i++) {
         mns_field *field = cloud_field(clouds[i], MNS_KERNEL_POLY3);
         mns_options few = {.max_pool_nodes = 1 << 19};
