@@ -23,7 +23,7 @@ bool builder_work(fbvh_builder *b, const work_set *set, const uint32_t *list)
     bool failed = false;
     int count = (int)b->crown.job_count;
     for (size_t i = 0; i < b->bench_count; i++) b->bench[i].node_count = b->bench[i].reference_count = 0;
-#pragma omp parallel for schedule(dynamic, 1) num_threads((int)b->bench_count) if (count > 1)
+#pragma omp parallel for schedule(dynamic, 1) num_threads((int)b->bench_count) if (count > 4)
     for (int i = 0; i < count; i++)
         run_job(set, list, &b->bench[omp_get_thread_num()], &b->crown.job[i], &failed);
     return !failed;

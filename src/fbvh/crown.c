@@ -6,6 +6,9 @@
 
 enum { JOBS = 128, LEVELS = 12, JOB_LEAST = 1024 };
 
+/* Levels of fewer references are cut by one thread: waking others takes longer. */
+enum { ALONE = 65536 };
+
 /* A node of the level while it is cut. */
 typedef struct cutting {
     work_node node;
@@ -94,7 +97,7 @@ bool work_crown_grow(const work_set *set, const work_node *root, work_crown *cro
             return false;
         const uint32_t *given = crown->list[from];
         uint32_t *taken = crown->list[!from];
-#pragma omp parallel for schedule(dynamic, 1) if (room > 4 * JOB_LEAST)
+#pragma omp parallel for schedule(dynamic, 1) if (room > ALONE)
         for (int i = 0; i < count; i++) cut_one(set, given, taken, job_most, &level[i]);
         from = !from;
         count = follow(crown, level, count, next, &divided);

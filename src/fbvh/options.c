@@ -11,8 +11,8 @@ mns_status fbvh_options_resolve(const fbvh_options *options, fbvh_options *o, mn
     *o = options ? *options : (fbvh_options){0};
     if (!o->discard_most) o->discard_most = 12;
     if (!o->leaf_least) o->leaf_least = 4;
-    if (o->traversal_cost == 0) o->traversal_cost = o->cost == FBVH_COST_SQUARE ? 16 : 2;
-    if (o->references_a_ball == 0) o->references_a_ball = 8;
+    if (o->traversal_cost == 0) o->traversal_cost = o->cost == FBVH_COST_SQUARE ? 200 : 6;
+    if (o->references_a_ball == 0) o->references_a_ball = 16;
     if (!o->max_block_bytes) o->max_block_bytes = BLOCK_BYTES;
     if (o->kind > FBVH_OVERLAPPING || o->cost > FBVH_COST_LINEAR)
         return status_fail(error, MNS_ERROR_USAGE, "fbvh: no such kind of tree, or of cost");

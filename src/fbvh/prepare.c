@@ -17,9 +17,6 @@ enum { CURVE_BITS = 10 };
  * that a node has when the halving of its first levels ends. */
 enum { DENSE = 16, MIDDLE_LEAST = 65536 };
 
-/* ... from which places away from the surface may be worth looking for. */
-enum { OVERLAPS = 4 };
-
 static uint32_t spread(uint32_t x) /* ten bits, two zeros before each */
 {
     x = (x | x << 16) & 0x030000ffu;
@@ -127,7 +124,6 @@ mns_status builder_prepare(fbvh_builder *b, builder_slot *slot, const mns_field 
     set->slack = (float)(most * 0x1p-21);
     set->iso = f->iso;
     set->middle_levels = middle_levels(f, &set->options);
-    set->overlaps = !set->options.no_deep && overlap_of(f) >= OVERLAPS;
     set->own = 0;
     set->sum = 0;
     for (size_t i = 0; i < set->count && set->strength; i++) {

@@ -50,7 +50,7 @@ static int cut_node(const work_set *set, work_node *node, work_bench *bench, wor
     work_cut cut;
     bool bounded;
     size_t step = work_look(set, node, bench->list + node->first, &bench->block);
-    if (step == 1 && set->overlaps && work_deep(set, node, &bench->block)) {
+    if (step == 1 && !set->options.no_deep && work_deep(set, node, &bench->block)) {
         tally->deep++;
         return CUT_LEAF;
     }
@@ -92,8 +92,13 @@ static bool grow(const work_set *set, work_node *node, work_bench *bench, fbvh_n
     fbvh_node pair[2];
     bool is[2];
     size_t depth_of[2];
-    for (int k = 0; k < 2; k++)
-        if (!grow(set, &child[k], bench, &pair[k], &is[k], tally, &depth_of[k])) return false;
+    double references = child[0].references, leaves = child[0].leaves;
+    size_t references_before = bench->reference_count, leaves_before = tally->leaves;
+    if (!grow(set, &child[0], bench, &pair[0], &is[0], tally, &depth_of[0])) return false;
+    /* What the first did not need of its bounds is the second's: it may have been deep inside. */
+    child[1].references += references - (double)(bench->reference_count - references_before);
+    child[1].leaves += leaves - (double)(tally->leaves - leaves_before);
+    if (!grow(set, &child[1], bench, &pair[1], &is[1], tally, &depth_of[1])) return false;
     *found = is[0] || is[1];
     if (is[0] != is[1]) {
         *result = pair[is[1]];
