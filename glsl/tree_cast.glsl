@@ -21,7 +21,7 @@ Leaf cast_leaf = Leaf(0u, 0u, 0.0, 0.0);
 bool cast_held = false; // the slots hold a leaf that is not done with
 int cast_work = 0;
 #ifdef COUNTERS
-vec4 cast_counts = vec4(0.0); // steps through pairs, leaves tested, balls considered, rounds of solving
+vec4 cast_counts = vec4(0.0); // steps through pairs, leaves tested, balls considered, rounds: pieces summed and searched, or secants
 #define COUNT(what, many) cast_counts.what += float(many)
 #else
 #define COUNT(what, many)
@@ -95,6 +95,7 @@ bool cast_find_piece()
         cast_s = cast_stop;
         cast_stop = min(cast_next, cast_leaf.end);
         cast_work += slot_count + 2;
+        COUNT(w, 1);
     }
     return may;
 }

@@ -399,6 +399,27 @@ typedef enum mns_phase { /* of mns_stats.ms; the total is apart */
 
 MNS_API const char *mns_phase_name(mns_phase phase);
 
+/* What a ray through a tree costs (Gourmel et al. 2010, table 3), and the iterations of solving (Forcier &
+ * Wang 2017). */
+typedef enum mns_work {
+    MNS_WORK_NODES = 0, /* pairs of boxes passed */
+    MNS_WORK_LEAVES,    /* leaves tested */
+    MNS_WORK_BALLS,     /* balls considered in them */
+    MNS_WORK_ROUNDS,    /* rounds of solving: pieces summed and searched (exact), steps (secant) */
+    MNS_WORK_COUNT
+} mns_work;
+
+/* The tree of fbvh and bvh. */
+typedef struct mns_tree_stats {
+    uint64_t balls; /* 0: there is none */
+    uint64_t leaves, depth, references, leaf_largest, discarded;
+    uint64_t leaves_bounded;  /* leaves that the bounds on memory kept from being split */
+    uint64_t bytes;           /* on the GPU */
+    double leaf_mean;         /* references a leaf */
+    bool made_smaller;        /* the driver's blocks lowered the bounds */
+    double build_ms, sort_ms; /* of building, whichever thread did it; the sort is part of it */
+} mns_tree_stats;
+
 typedef struct mns_stats {
     const char *method, *solver, *gather;
     int width, height;
@@ -419,6 +440,9 @@ typedef struct mns_stats {
         uint64_t root_cap;        /* pixels whose root search hit its cap */
         uint64_t undecided_float; /* pixels that float could not decide, solved again in double */
     } fallbacks;
+    mns_tree_stats tree;
+    bool counted;                /* options.counters: */
+    double work[MNS_WORK_COUNT]; /* means a ray */
     uint64_t programs, passes,
         buffers;           /* compiled and held by the renderer so far; passes of this frame's plan */
     double color_range[2]; /* legend: what the ends of the colour map stand for; 0,0 without */
@@ -452,14 +476,20 @@ typedef struct mns_image {
     float *normal;
     float *certain; /* 1, or 0 where undecided */
     float *t_error; /* bound on the error of t + t_lo; NULL where the method gives none */
+    float *work;    /* MNS_WORK_COUNT counts a pixel, with options.counters; else NULL */
 } mns_image;
 
 /* Reads a frame's planes. Errors: USAGE (not drawn yet), MEMORY, GL. */
 MNS_API mns_status mns_frame_read(mns_frame *frame, mns_image **image, mns_error *error);
 MNS_API void mns_image_destroy(mns_image *image);
+/* One count of a ray's work as a picture: colours of `map` from 0 to the count that one pixel in a thousand
+ * passes, which *most (where not NULL) becomes. Errors: USAGE (the image has no counts), MEMORY. */
+MNS_API mns_status mns_image_heat(const mns_image *image, mns_work count, mns_color_map map, mns_image **heat,
+                                  double *most, mns_error *error);
 /* Writes an image: .png (8-bit sRGB with alpha where any pixel is not opaque) or .exr (float32 R G B A, t,
- * t.lo, N.X, N.Y, N.Z, certain and, where there is one, t.err, ZIP-compressed), written beside the name and
- * renamed. Errors: USAGE (unknown ending), IO, MEMORY. */
+ * t.lo, N.X, N.Y, N.Z, certain and, where there are some, t.err and work.nodes, work.leaves, work.balls,
+ * work.rounds, ZIP-compressed), written beside the name and renamed. Errors: USAGE (unknown ending), IO,
+ * MEMORY. */
 MNS_API mns_status mns_image_write(const mns_image *image, const char *path, mns_error *error);
 /* Reads back an .exr that mns_image_write wrote. Errors: IO, INPUT, MEMORY. */
 MNS_API mns_status mns_image_read(const char *path, mns_image **image, mns_error *error);

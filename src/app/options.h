@@ -16,7 +16,7 @@ typedef struct app_options {
     mns_look look;
     mns_options draw;
     mns_backend backend;
-    const char *output, *aov, *stats; /* NULL: not asked for */
+    const char *output, *aov, *heat, *stats; /* NULL: not asked for */
     parse_frames_range frames;
     int repeat;  /* 0: not asked for */
     int threads; /* 0: OpenMP's own choice */

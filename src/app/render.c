@@ -13,11 +13,12 @@
 /* One run of the command: what was asked for, and what is being made of it. */
 typedef struct render_job {
     const app_options *o;
-    names_pattern output, aov;
+    names_pattern output, aov, heat;
     mns_input *input;
     long first, last, step, total; /* frames to draw, `last` included */
     mns_field *kept;               /* the frame that fix_view read, if it is still to be drawn */
     long kept_index;
+    mns_field *failed; /* the frame that could not be drawn */
     double open_ms, kept_ms;
     mns_view view; /* resolved, the same for all frames */
     mns_look look;
@@ -46,10 +47,10 @@ static mns_status check_outputs(render_job *job, mns_error *error)
     const app_options *o = job->o;
     if (!o->output && !o->aov && !o->stats && !o->explain)
         return app_fail(error, MNS_ERROR_USAGE, "nothing to write: expected -o FILE.png or -o FILE.exr");
-    const char *path[] = {o->output, o->aov, o->stats};
-    const char *option[] = {"--output", "--aov", "--stats"};
-    names_pattern *pattern[] = {&job->output, &job->aov, NULL};
-    for (int i = 0; i < 3; i++) {
+    const char *path[] = {o->output, o->aov, o->heat, o->stats};
+    const char *option[] = {"--output", "--aov", "--heat", "--stats"};
+    names_pattern *pattern[] = {&job->output, &job->aov, &job->heat, NULL};
+    for (int i = 0; i < 4; i++) {
         mns_status status = MNS_OK;
         if (!path[i]) continue;
         for (int j = 0; j < i; j++)
@@ -84,6 +85,7 @@ static mns_status choose_frames(render_job *job, mns_error *error)
     if (job->total == 1) return MNS_OK;
     const char *unnumbered = job->o->output && !job->output.is_numbered ? job->o->output
                              : job->o->aov && !job->aov.is_numbered     ? job->o->aov
+                             : job->o->heat && !job->heat.is_numbered   ? job->o->heat
                                                                         : NULL;
     if (unnumbered)
         return app_fail(error, MNS_ERROR_USAGE,
@@ -173,37 +175,68 @@ static mns_status start_renderer(render_job *job, mns_error *error)
     return status;
 }
 
+/* What the next draw needs is begun before this one: of this field again, or, with the last of its draws, of
+ * the next frame's, which is read for it. */
+static mns_status prepare(render_job *job, const render_frame *f, bool again, mns_error *error)
+{
+    const mns_options *options = &job->o->draw;
+    bool moves = job->total > 1 || options->moved, trees = options->method >= MNS_METHOD_FBVH;
+    if (!moves || !trees) return MNS_OK;
+    if (again) return options->moved ? mns_renderer_prepare(job->renderer, f->field, options, error) : MNS_OK;
+    long next = f->index + job->step;
+    if (next > job->last || job->kept) return MNS_OK;
+    double start = app_clock_ms();
+    mns_status status = mns_input_read(job->input, (size_t)next, &job->kept, error);
+    job->kept_index = next;
+    job->kept_ms = app_clock_ms() - start;
+    return status ? status : mns_renderer_prepare(job->renderer, job->kept, options, error);
+}
+
 static mns_status draw(render_job *job, const render_frame *f, mns_error *error)
 {
     int repeats = job->o->repeat ? job->o->repeat : 1;
     for (int i = 0; i < repeats; i++) {
-        mns_status status = mns_renderer_draw(job->renderer, f->field, &job->view, &job->look, &job->o->draw,
-                                              job->frame, error);
+        mns_status status = prepare(job, f, i + 1 < repeats, error);
+        if (!status)
+            status = mns_renderer_draw(job->renderer, f->field, &job->view, &job->look, &job->o->draw,
+                                       job->frame, error);
         if (status) return status;
         job->runs[i] = *mns_frame_stats(job->frame);
     }
     return MNS_OK;
 }
 
-static mns_status write_image(const render_frame *f, const names_pattern *pattern, mns_error *error)
+static mns_status write_image(const render_frame *f, const mns_image *image, const names_pattern *pattern,
+                              mns_error *error)
 {
-    if (!pattern->text) return MNS_OK;
+    if (!pattern->text || !image) return MNS_OK;
     char *path = names_expand(pattern, f->index);
     if (!path) return app_fail(error, MNS_ERROR_MEMORY, "out of memory naming a file");
-    mns_status status = mns_image_write(f->image, path, error);
+    mns_status status = mns_image_write(image, path, error);
     free(path);
+    return status;
+}
+
+static mns_status write_heat(render_job *job, const render_frame *f, mns_error *error)
+{
+    mns_image *heat = NULL;
+    if (!job->o->heat) return MNS_OK;
+    mns_status status = mns_image_heat(f->image, MNS_WORK_ROUNDS, job->look.color_map, &heat, NULL, error);
+    if (!status) status = write_image(f, heat, &job->heat, error);
+    mns_image_destroy(heat);
     return status;
 }
 
 /* Reads the planes back and writes the files that were asked for. */
 static mns_status save(render_job *job, render_frame *f, mns_error *error)
 {
-    if (!job->o->output && !job->o->aov) return MNS_OK;
+    if (!job->o->output && !job->o->aov && !job->o->heat) return MNS_OK;
     double start = app_clock_ms();
     mns_status status = mns_frame_read(job->frame, &f->image, error);
     double read = app_clock_ms();
-    if (!status) status = write_image(f, &job->output, error);
-    if (!status) status = write_image(f, &job->aov, error);
+    if (!status) status = write_image(f, f->image, &job->output, error);
+    if (!status) status = write_image(f, f->image, &job->aov, error);
+    if (!status) status = write_heat(job, f, error);
     f->readback_ms = read - start;
     f->encode_ms = app_clock_ms() - read;
     return status;
@@ -272,7 +305,10 @@ static mns_status render_one(render_job *job, long index, mns_error *error)
     if (!status) status = keep_stats(job, &f, error);
     if (!status) status = print_frame(job, &f, error);
     mns_image_destroy(f.image);
-    mns_field_destroy(f.field);
+    if (!status) /* else its tree may still be being built */
+        mns_field_destroy(f.field);
+    else
+        job->failed = f.field;
     return status;
 }
 
@@ -339,9 +375,10 @@ int app_render(int argc, char **argv)
         status = run(&job, &error);
         json_decref(job.frames);
         free(job.runs);
-        mns_field_destroy(job.kept);
         mns_frame_destroy(job.frame);
         mns_renderer_destroy(job.renderer);
+        mns_field_destroy(job.kept);
+        mns_field_destroy(job.failed);
         mns_context_destroy(job.context);
         mns_input_close(job.input);
     }

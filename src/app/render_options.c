@@ -274,6 +274,14 @@ static mns_status option_aov(app_options *o, const char *name, const char *text,
     return MNS_OK;
 }
 
+static mns_status option_heat(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    (void)name, (void)error;
+    o->heat = text;
+    o->draw.counters = true;
+    return MNS_OK;
+}
+
 static mns_status option_stats(app_options *o, const char *name, const char *text, mns_error *error)
 {
     (void)name, (void)error;
@@ -389,6 +397,8 @@ static const option_row ROWS[] = {
      "of fbvh and bvh: count a ray's work; --stats gets the means, --aov and -o FILE.exr channels of their "
      "own",
      option_counters},
+    {"heat", 0, "FILE", "with --counters: the rounds of solving a pixel as a picture, by --color-map",
+     option_heat},
     {"explain", 0, NULL, "print the plan and stop", option_explain},
     HEADING("Tests and diagnosis (slower; the image stays right):"),
     {"pool", 0, "N", "at most N list nodes at once; the frame is cut into tiles to fit", option_pool},

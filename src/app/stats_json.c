@@ -114,6 +114,29 @@ static json_t *warnings(const mns_plan *plan)
     return list;
 }
 
+/* What was built; null for methods that build no tree. */
+static json_t *tree(const mns_stats *s)
+{
+    const mns_tree_stats *t = &s->tree;
+    if (!t->balls) return json_null();
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:b, s:f, s:f}", "balls",
+                     (json_int_t)t->balls, "leaves", (json_int_t)t->leaves, "depth", (json_int_t)t->depth,
+                     "references", (json_int_t)t->references, "leaf_largest", (json_int_t)t->leaf_largest,
+                     "leaf_mean", t->leaf_mean, "discarded", (json_int_t)t->discarded, "leaves_bounded",
+                     (json_int_t)t->leaves_bounded, "bytes", (json_int_t)t->bytes, "made_smaller",
+                     t->made_smaller, "build_ms", t->build_ms, "sort_ms", t->sort_ms);
+}
+
+/* Means of a ray's work; null where it was not counted. */
+static json_t *work(const mns_stats *s)
+{
+    static const char *const names[MNS_WORK_COUNT] = {"nodes", "leaves", "balls", "rounds"};
+    if (!s->counted) return json_null();
+    json_t *object = json_object();
+    for (int i = 0; i < MNS_WORK_COUNT; i++) json_object_set_new(object, names[i], number(s->work[i]));
+    return object;
+}
+
 /* The legend of the colour map; null where the surface has one colour. The name may come from a file in any
  * encoding. */
 static json_t *legend(const mns_stats *s)
@@ -163,6 +186,8 @@ json_t *stats_json_frame(const stats_frame *frame)
     json_object_set_new(object, "left_out", left_out(frame->plan));
     json_object_set_new(object, "warnings", warnings(frame->plan));
     json_object_set_new(object, "fallbacks", fallbacks(s));
+    json_object_set_new(object, "work", work(s));
+    json_object_set_new(object, "tree", tree(s));
     json_object_set_new(object, "color", legend(s));
     return object;
 }

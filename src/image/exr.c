@@ -16,6 +16,14 @@ void image_list_channels(const mns_image *image, bool has_error, image_channels 
     for (int i = 0; i < IMAGE_CHANNELS; i++)
         if (has_error || strcmp(list[i].name, IMAGE_ERROR_CHANNEL) != 0)
             channels->channel[channels->count++] = list[i];
+    const image_channel work[IMAGE_WORK_CHANNELS] = {
+        {"work.balls", image->work, MNS_WORK_COUNT, MNS_WORK_BALLS},
+        {"work.leaves", image->work, MNS_WORK_COUNT, MNS_WORK_LEAVES},
+        {"work.nodes", image->work, MNS_WORK_COUNT, MNS_WORK_NODES},
+        {"work.rounds", image->work, MNS_WORK_COUNT, MNS_WORK_ROUNDS},
+    };
+    for (int i = 0; i < IMAGE_WORK_CHANNELS && image->work; i++)
+        channels->channel[channels->count++] = work[i];
 }
 
 const image_channel *image_find_channel(const image_channels *channels, const char *name)

@@ -38,6 +38,7 @@ void mns_image_destroy(mns_image *image)
     free(image->normal);
     free(image->certain);
     free(image->t_error);
+    free(image->work);
     free(image);
 }
 

@@ -231,6 +231,7 @@ static mns_status draw_all(draw *d, mns_error *error)
         host_draw(&r->passes, &r->device, d->plan, d->target, d->program[SHADER_HOST_DRAW], d->frame->shaded,
                   d->frame->t);
     if (!status && d->plan->options.measure && !traced) status = draw_hits_count(d, error);
+    if (!status && d->plan->features & FEATURE_COUNTERS) status = draw_work_count(d, error);
     list_lengths_finish(&d->lengths, d->stats);
     d->stats->programs = r->programs.count;
     d->stats->buffers = draw_buffers_count(r);

@@ -66,5 +66,7 @@ void draw_counts_add(mns_stats *stats, const list_counts *counts);
 uint64_t draw_buffers_count(const mns_renderer *r);
 /* Hit pixels, read back: only when figures were asked for. Errors: MEMORY. */
 mns_status draw_hits_count(draw *d, mns_error *error);
+/* Means of the rays' work, read back (COUNTERS). Errors: MEMORY. */
+mns_status draw_work_count(draw *d, mns_error *error);
 
 #endif

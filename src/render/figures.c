@@ -54,6 +54,21 @@ mns_status draw_hits_count(draw *d, mns_error *error)
     return MNS_OK;
 }
 
+mns_status draw_work_count(draw *d, mns_error *error)
+{
+    const GladGLContext *gl = &d->r->device.gl;
+    size_t pixels = (size_t)d->stats->width * (size_t)d->stats->height;
+    float *work = malloc(pixels * MNS_WORK_COUNT * sizeof *work);
+    if (!work) return status_no_memory(error, "while counting work");
+    gl->BindTexture(GL_TEXTURE_2D, d->frame->work);
+    gl->GetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_FLOAT, work);
+    for (size_t i = 0; i < pixels * MNS_WORK_COUNT; i++)
+        d->stats->work[i % MNS_WORK_COUNT] += (double)work[i] / (double)pixels;
+    d->stats->counted = true;
+    free(work);
+    return MNS_OK;
+}
+
 uint64_t draw_buffers_count(const mns_renderer *r)
 {
     const list_passes *p = &r->passes;

@@ -117,7 +117,7 @@ const mns_plan *mns_frame_plan(const mns_frame *frame)
     return frame->plan;
 }
 
-static mns_image *image_make(int width, int height, bool with_error)
+static mns_image *image_make(int width, int height, bool with_error, bool with_work)
 {
     size_t pixels = (size_t)width * (size_t)height;
     mns_image *image = calloc(1, sizeof *image);
@@ -130,7 +130,8 @@ static mns_image *image_make(int width, int height, bool with_error)
     image->normal = memory_array(pixels, 3 * sizeof(float));
     image->certain = memory_array(pixels, sizeof(float));
     if (with_error) image->t_error = memory_array(pixels, sizeof(float));
-    if (with_error && !image->t_error) goto fail;
+    if (with_work) image->work = memory_array(pixels, MNS_WORK_COUNT * sizeof(float));
+    if ((with_error && !image->t_error) || (with_work && !image->work)) goto fail;
     if (image->rgba && image->t && image->t_lo && image->normal && image->certain) return image;
 fail:
     mns_image_destroy(image);
@@ -168,6 +169,12 @@ static void unpack(const mns_frame *f, mns_image *image, float *row_store)
             for (size_t axis = 0; axis < 3; axis++) image->normal[(y * width + x) * 3 + axis] = from[axis];
             image->certain[y * width + x] = from[3];
         }
+    if (!f->has_work) return;
+    fetch(gl, f->work, GL_RGBA, row_store);
+    for (size_t y = 0; y < height; y++)
+        memcpy(image->work + y * width * MNS_WORK_COUNT,
+               row_store + (height - 1 - y) * width * MNS_WORK_COUNT,
+               width * MNS_WORK_COUNT * sizeof *row_store);
 }
 
 mns_status mns_frame_read(mns_frame *f, mns_image **result, mns_error *error)
@@ -176,7 +183,7 @@ mns_status mns_frame_read(mns_frame *f, mns_image **result, mns_error *error)
         return status_fail(error, MNS_ERROR_USAGE, "frame: nothing has been drawn into it yet");
     double begin = clock_ms();
     float *store = memory_array((size_t)f->width * (size_t)f->height, 4 * sizeof(float));
-    mns_image *image = image_make(f->width, f->height, f->t_error != NULL);
+    mns_image *image = image_make(f->width, f->height, f->t_error != NULL, f->has_work);
     gl_state state;
     if (!store || !image) {
         free(store);

@@ -30,6 +30,7 @@ typedef struct render_tree {
     double color_range[2];
     bool low;
     fbvh_figures figures;
+    size_t references;
 } render_tree;
 
 struct mns_renderer {

@@ -44,6 +44,7 @@ static mns_status send_tree(draw *d, mns_error *error)
     r->tree.features = d->plan->features & TREE_FEATURES;
     r->tree.options = d->plan->tree;
     r->tree.figures = tree->figures;
+    r->tree.references = tree->reference_count;
     return MNS_OK;
 }
 
@@ -62,9 +63,27 @@ static mns_status send_colors(draw *d, mns_error *error)
     return MNS_OK;
 }
 
+static void tell_tree(draw *d)
+{
+    const fbvh_figures *f = &d->r->tree.figures;
+    d->stats->tree = (mns_tree_stats){.balls = d->r->trace.count,
+                                      .leaves = f->leaves,
+                                      .depth = f->depth,
+                                      .references = d->r->tree.references,
+                                      .leaf_largest = f->leaf_largest,
+                                      .discarded = f->discarded,
+                                      .leaves_bounded = f->leaves_bounded,
+                                      .bytes = f->memory_bytes,
+                                      .leaf_mean = f->leaf_mean,
+                                      .made_smaller = f->made_smaller,
+                                      .build_ms = f->build_ms,
+                                      .sort_ms = f->sort_ms};
+}
+
 mns_status draw_tree_begin(draw *d, mns_error *error)
 {
     mns_status status = same_tree(d) ? MNS_OK : send_tree(d, error);
+    if (!status) tell_tree(d);
     if (!status && !same_colors(d)) status = send_colors(d, error);
     return status;
 }
