@@ -55,7 +55,8 @@ const meniscus = {
     page.curve = (run) => run.solver ? `${run.method} · ${run.solver}` : String(run.method);
 
     page.runs = page.results.runs ?? [];
-    page.measured = page.runs.filter((run) => run.ms && run.errors);
+    /* Of saved images there are errors, but no times. */
+    page.measured = page.runs.filter((run) => run.ms?.median > 0 && run.errors);
 
     const SPREADS = [
         ['t', 'Distance |t − t*| / max(t*, R)', 'Distance'],
