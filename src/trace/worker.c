@@ -15,6 +15,7 @@ static void *build_ahead(void *argument)
     trace_worker *worker = argument;
     worker_job *job = &worker->ahead;
     job->status = fbvh_build(worker->builder, job->field, &job->options, &job->tree, &job->error);
+    atomic_store(&worker->done, true);
     return NULL;
 }
 
@@ -40,6 +41,7 @@ mns_status trace_worker_begin(trace_worker *worker, const mns_field *field, cons
     mns_status status = make_builder(worker, error);
     if (status) return status;
     worker->ahead = (worker_job){.field = field, .stamp = field->stamp, .options = *options};
+    atomic_store(&worker->done, false);
     if (pthread_create(&worker->thread, NULL, build_ahead, worker) != 0)
         return status_no_memory(error, "while starting to build a tree ahead");
     worker->running = true;
@@ -65,5 +67,5 @@ void trace_worker_free(trace_worker *worker)
 {
     wait_for_it(worker);
     fbvh_builder_destroy(worker->builder);
-    *worker = (trace_worker){0};
+    memset(worker, 0, sizeof *worker);
 }

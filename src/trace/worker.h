@@ -6,6 +6,7 @@
 #include "fbvh/fbvh.h"
 
 #include <pthread.h>
+#include <stdatomic.h>
 
 /* What a tree was, or is being, built of. */
 typedef struct worker_job {
@@ -22,6 +23,7 @@ typedef struct trace_worker {
     fbvh_builder *builder;
     pthread_t thread;
     bool running;
+    atomic_bool done; /* what is running has come to its end: it can be had without waiting */
     worker_job ahead; /* what the thread builds */
     worker_job ready; /* what it has built, and nobody has taken yet */
 } trace_worker;
