@@ -8,7 +8,7 @@ source bench/yardstick.sh >&2
 
 { cmake --preset release -DMNS_TESTS=ON -DMNS_BENCH=ON && cmake --build --preset release --target meniscus_program bench_accuracy; } >&2
 export MESA_SHADER_CACHE_DISABLE=true # a warm cache would hide what the first frame costs
-export SCENES LIMIT
+export SCENES LIMIT PYTHONDONTWRITEBYTECODE=1
 LIMIT_VECTORS=$(yardstick_vectors)
 export LIMIT_VECTORS
 

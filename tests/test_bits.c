@@ -92,6 +92,24 @@ static void shuffled_lists_write_the_same_file(void **state)
     unsetenv("LP_NUM_THREADS");
 }
 
+/* The tiles' lists come from threads of ours, not of the driver. */
+static void tiles_write_the_same_file_every_time(void **state)
+{
+    cli *c = *state;
+    static const char *const drivers[] = {"0", "1", "2"}, *const ours[] = {"1", "2", "3"};
+    render(c, "--method tile", "first.exr");
+    for (int run = 2; run <= 10; run++) {
+        char what[64];
+        const char *driver = drivers[run % 3], *own = ours[run / 3 % 3];
+        snprintf(what, sizeof what, "tile, LP_NUM_THREADS=%s OMP_NUM_THREADS=%s", driver, own);
+        assert_int_equal(setenv("LP_NUM_THREADS", driver, 1) | setenv("OMP_NUM_THREADS", own, 1), 0);
+        render(c, "--method tile", "again.exr");
+        expect_same_file(c, "first.exr", "again.exr", what);
+    }
+    unsetenv("LP_NUM_THREADS");
+    unsetenv("OMP_NUM_THREADS");
+}
+
 int main(void)
 {
     gl_fixture fixture; /* ends the program where there is nothing to draw with */
@@ -100,6 +118,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(ten_runs_write_the_same_file, setup, teardown),
         cmocka_unit_test_setup_teardown(any_number_of_threads_writes_the_same_file, setup, teardown),
+        cmocka_unit_test_setup_teardown(tiles_write_the_same_file_every_time, setup, teardown),
         cmocka_unit_test_setup_teardown(shuffled_lists_write_the_same_file, setup, teardown),
     };
     return cmocka_run_group_tests_name("bits", tests, NULL, NULL);

@@ -27,6 +27,9 @@
 #define PLAIN_PASSES "sort upload gather cast resolve shade"
 #define TREE_PASSES  "build upload trace resolve shade"
 #define CORE_PASSES  "sort upload core_depth gather cast resolve shade"
+#define TILE_PASSES  "sort bin upload cast resolve shade"
+#define TILES        (FEATURE_TILES | SPECULAR)
+#define TILE_METHOD  .options = {.method = MNS_METHOD_TILE}
 
 static const scene scenes[] = {
     {"defaults, the least driver", .desc = {SCENE_UNIT}, .features = POLY3 | CORE | LEAST,
@@ -123,6 +126,31 @@ static const scene scenes[] = {
      .features = POLY3 | (unsigned)MNS_SOLVER_SECANT << 3 | IN_BALL | FEATURE_EYE_INSIDE | FEATURE_TREE |
                  FEATURE_TEXELS | FEATURE_COUNTERS | SPECULAR,
      .passes = TREE_PASSES, .left_out = "certification: the solver is not certified"},
+    {"tiles, the least driver", .desc = {SCENE_UNIT}, TILE_METHOD, .features = POLY3 | CORE | TILES,
+     .passes = TILE_PASSES, .left_out = "reading by texels: this driver's buffer textures are too small"},
+    {"tiles, llvmpipe", .generator = "scattered:20000", .limits = &scene_llvmpipe, TILE_METHOD,
+     .features = POLY3 | CORE | FEATURE_FAR | FEATURE_TEXELS | TILES, .passes = TILE_PASSES,
+     .left_out = "gather: tiles are binned on the CPU"},
+    {"tiles, large balls too", .desc = {SCENE_UNIT}, SCENE_EYE(0, 0, 0.9), .limits = &scene_llvmpipe,
+     TILE_METHOD, .features = POLY3 | CORE | IN_BALL | FEATURE_TEXELS | TILES, .passes = TILE_PASSES,
+     .left_out = "billboards: tiles are binned on the CPU"},
+    {"tiles, a core radius each", .desc = {SCENE_UNIT, .strength = {.data = scene_gains}}, TILE_METHOD,
+     .features = POLY3 | STRENGTHS | CORE | FEATURE_CORE_RADII | TILES, .passes = TILE_PASSES,
+     .left_out = "core depth as a pass: cores close the tiles' masks"},
+    {"tiles, a negative strength", .desc = {SCENE_UNIT, .strength = {.data = scene_carving}}, TILE_METHOD,
+     .features = POLY3 | STRENGTHS | TILES, .passes = TILE_PASSES,
+     .left_out = "core depth: a negative strength could carve a core"},
+    {"tiles, the eye inside the surface", .desc = {SCENE_UNIT}, SCENE_EYE(0, 0, 0.1), TILE_METHOD,
+     .features = POLY3 | IN_BALL | FEATURE_EYE_INSIDE | TILES, .passes = TILE_PASSES,
+     .left_out = "core depth: f(eye) >= L: the way out may lie behind a core"},
+    {"tiles, no balls", TILE_METHOD, .features = POLY3 | TILES, .passes = TILE_PASSES,
+     .left_out = "core depth: there are no balls"},
+    {"tiles on a host, cubic, coloured, sampled", .desc = {SCENE_ROW, .radius = {.data = scene_sizes}},
+     .look = {.color_by = "heat"}, .host = true,
+     .options = {.method = MNS_METHOD_TILE, .solver = MNS_SOLVER_CUBIC, .samples = 4},
+     .features = POLY3 | CUBIC | RADII | CORE | FEATURE_HOST | FEATURE_COLORS | FEATURE_SAMPLES | TILES,
+     .passes = "sort bin upload cast resolve shade host_draw",
+     .left_out = "certification: the solver is a model of the field"},
     {"cel", .desc = {SCENE_UNIT}, .look = {.shading = MNS_SHADING_CEL},
      .features = POLY3 | CORE | LEAST | FEATURE_CEL, .passes = CORE_PASSES},
     {"a directional light", .desc = {SCENE_UNIT}, .look = {.light = MNS_LIGHT_DIRECTIONAL},
@@ -247,10 +275,15 @@ static void what_is_not_there_is_left_out(void **state)
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         mns_field *field = scene_field(&scenes[i]);
         mns_plan *plan = scene_plan(&scenes[i], field);
+        bool tiles = plan->features & FEATURE_TILES;
         for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
-            if (is_left_out(plan, parts[k].part) == !!(plan->features & parts[k].feature))
+            if (tiles && parts[k].feature & (POINTS | QUADS)) /* both are billboards */
+                assert_false(plan->features & parts[k].feature || is_left_out(plan, parts[k].part));
+            else if (is_left_out(plan, parts[k].part) == !!(plan->features & parts[k].feature))
                 fail_msg("%s: %s", scenes[i].name, parts[k].part);
         assert_true(is_left_out(plan, "certification") == !!(plan->features & FEATURE_SOLVER));
+        assert_int_equal(is_left_out(plan, "billboards"), tiles);
+        assert_int_equal(is_left_out(plan, "core depth as a pass"), tiles);
         assert_true(is_left_out(plan, "FBVH") == !(plan->features & FEATURE_TREE));
         mns_plan_destroy(plan);
         mns_field_destroy(field);
@@ -296,6 +329,38 @@ static void the_text_names_the_features(void **state)
     mns_field_destroy(field);
 }
 
+static void the_text_names_the_method_tile(void **state)
+{
+    (void)state;
+    scene s = {"tile", .desc = {SCENE_UNIT}, TILE_METHOD};
+    mns_field *field = scene_field(&s);
+    mns_plan *plan = scene_plan(&s, field);
+    assert_non_null(strstr(mns_plan_text(plan), "method tile"));
+    assert_non_null(strstr(mns_plan_text(plan), ": core specular tiles\n"));
+    assert_true(plan->pool_most == (1u << 24) / TILE_ENTRY);
+    mns_plan_destroy(plan);
+    mns_field_destroy(field);
+}
+
+static void tiles_are_neither_gathered_nor_shuffled(void **state)
+{
+    (void)state;
+    static const mns_options wrong[] = {{.method = MNS_METHOD_TILE, .gather = MNS_GATHER_PAPER},
+                                        {.method = MNS_METHOD_TILE, .shuffle = 1},
+                                        {.method = MNS_METHOD_TILE, .solver = MNS_SOLVER_SECANT},
+                                        {.method = MNS_METHOD_TILE, .counters = true}};
+    scene s = {"wrong", .desc = {SCENE_UNIT}};
+    mns_field *field = scene_field(&s);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        mns_plan *plan = NULL;
+        mns_error error;
+        assert_int_equal(mns_plan_create(field, NULL, NULL, &wrong[i], NULL, &plan, &error), MNS_ERROR_USAGE);
+        assert_null(plan);
+        if (i < 2) assert_non_null(strstr(error.text, "tiles are not gathered"));
+    }
+    mns_field_destroy(field);
+}
+
 static void the_same_inputs_give_the_same_plan(void **state)
 {
     (void)state;
@@ -322,6 +387,8 @@ int main(void)
         cmocka_unit_test(what_is_not_there_is_left_out),
         cmocka_unit_test(the_text_tells_all_of_the_plan),
         cmocka_unit_test(the_text_names_the_features),
+        cmocka_unit_test(the_text_names_the_method_tile),
+        cmocka_unit_test(tiles_are_neither_gathered_nor_shuffled),
         cmocka_unit_test(the_same_inputs_give_the_same_plan),
     };
     return cmocka_run_group_tests_name("plan", tests, NULL, NULL);

@@ -260,7 +260,7 @@ static void plan_passes(mns_plan *plan)
         {"sort", true},
         {"bin", tiles},
         {"upload", true},
-        {"host_depth", f & FEATURE_HOST},
+        {"host_depth", f & FEATURE_HOST && !tiles},
         {"core_depth", f & FEATURE_CORE && !tiles},
         {"gather", !tiles},
         {"shuffle", f & FEATURE_SHUFFLE},

@@ -157,7 +157,8 @@ bool plan_needs(const mns_plan *plan, plan_shader shader)
         return f & FEATURE_POINTS;
     case SHADER_SHUFFLE:
         return f & FEATURE_SHUFFLE;
-    case SHADER_HOST_DEPTH:
+    case SHADER_HOST_DEPTH: /* for the core pass and gather; a cast reads the host's depth itself */
+        return f & FEATURE_HOST && !(f & FEATURE_TILES);
     case SHADER_HOST_DRAW:
         return f & FEATURE_HOST;
     default:

@@ -7,6 +7,11 @@
     (FEATURE_CORE | FEATURE_CORE_RADII | FEATURE_PAPER | FEATURE_POINTS | FEATURE_QUADS | FEATURE_SHUFFLE |  \
      FEATURE_CLIP_ZERO | FEATURE_FLAT_CORES | FEATURE_TILES)
 
+/* And one whose lists are binned into tiles. */
+#define NEVER_OF_TILES                                                                                       \
+    (FEATURE_PAPER | FEATURE_POINTS | FEATURE_QUADS | FEATURE_SHUFFLE | FEATURE_CLIP_ZERO |                  \
+     FEATURE_FLAT_CORES)
+
 /* `a` only with all of `b`. */
 static bool implies(uint64_t features, uint64_t a, uint64_t b)
 {
@@ -28,6 +33,7 @@ bool variant_possible(uint64_t f)
     if (tree && (f & NEVER_OF_TREES || (solver != MNS_SOLVER_EXACT && solver != MNS_SOLVER_SECANT)))
         return false;
     if (!tree && (solver == MNS_SOLVER_SECANT || f & (FEATURE_OVERLAPS | FEATURE_COUNTERS))) return false;
+    if (f & FEATURE_TILES && f & NEVER_OF_TILES) return false;
     return kernel >= MNS_KERNEL_POLY2 && kernel <= MNS_KERNEL_WENDLAND &&
            (tree || f & (FEATURE_POINTS | FEATURE_QUADS | FEATURE_TILES)) &&
            implies(f, FEATURE_LABELS, FEATURE_COLORS) &&
@@ -65,7 +71,10 @@ static uint64_t fill_in(plan_shader shader, uint64_t reads, uint64_t f)
 {
     bool quads = shader == SHADER_CORE_QUADS || shader == SHADER_GATHER_QUADS;
     bool tree = shader == SHADER_TREE || shader == SHADER_TREE_WALK || shader == SHADER_TREE_RESOLVE;
-    uint64_t more = tree ? FEATURE_TREE : quads ? FEATURE_QUADS : FEATURE_POINTS | FEATURE_QUADS;
+    uint64_t more = f & FEATURE_TILES ? 0
+                    : tree            ? FEATURE_TREE
+                    : quads           ? FEATURE_QUADS
+                                      : FEATURE_POINTS | FEATURE_QUADS;
     if (!(reads & FEATURE_KERNEL)) more |= MNS_KERNEL_POLY3;
     if (f & FEATURE_EYE_INSIDE) more |= FEATURE_EYE_IN_BALL;
     if (f & FEATURE_LABELS) more |= FEATURE_COLORS;

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""The tables of speed.md: speed.py ratios|paper|large PROGRAM [SCENE...]. Called by speed.sh, which sets LIMIT,
+LIMIT_VECTORS, SCENES."""
+import statistics
+import sys
+
+from common import REPEAT, camera, draw, fail, machine, median_ms, scene_path, yardstick_ms
+
+ROUNDS = 3
+SIZES = {"640x480": 1.0, "1024x768": 1.1}  # and what the bars are times there
+# scene: file, goal and bar of tile over yardstick at 640x480
+RATIOS = {
+    "S1k": ("S1_1k", 0.9, 1.0), "S10k": ("S1_10k", 0.9, 1.0), "S100k": ("S1_100k", 0.9, 1.1), "S1M": ("S1_1M", 1.0, 1.4),
+    "mixed": ("S3_10k", 0.9, 1.1), "D10k": ("S2_10k", 0.9, 1.0), "D100k": ("S2_100k", 1.0, 1.1),
+    "D1M": ("S2_1M", 1.0, 1.3),
+}
+# scene: file, how many times faster than the paper's passes at least
+PAPER = {"S100k": ("S1_100k", 3), "S1M": ("S1_1M", 6), "D100k": ("S2_100k", 3), "D1M": ("S2_1M", 6)}
+LARGE_MOST_MS = 1000
+
+
+def kind_of(name):
+    return "D" if name[0] == "D" else "S"
+
+
+def options_of(name):
+    return ["--kernel", "poly3", "--iso", "0.2", *camera(kind_of(name))]
+
+
+def verdict(value, goal, bar):
+    return "goal" if value <= goal else "bar" if value <= bar else "misses the bar"
+
+
+def print_ratios(program, wanted):
+    """Yardstick and tile in turn, ROUNDS times; medians of the rounds."""
+    rows, renderer = [], ""
+    for size, more in SIZES.items():
+        for name in wanted:
+            file, goal, bar = RATIOS[name]
+            limit, tile = [], []
+            for _ in range(ROUNDS):
+                limit.append(yardstick_ms(scene_path(file), kind_of(name), size))
+                stats = draw(program, scene_path(file), size, "tile", options_of(name))
+                tile.append(median_ms(stats))
+                renderer = stats["renderer"]
+            phases = [statistics.median(ms.get(phase, 0.0) for ms in tile)
+                      for phase in ("sort", "bin", "upload", "cast", "total")]
+            unit = statistics.median(limit)
+            ratio = phases[-1] / unit
+            cells = [name, size, f"{unit:.1f}", *(f"{ms:.1f}" for ms in phases), f"{ratio:.2f}", f"{goal * more:.2f}",
+                     f"{bar * more:.2f}", verdict(ratio, goal * more, bar * more)]
+            rows.append("| " + " | ".join(cells) + " |")
+    print(f"{machine(renderer)}; `exact`, medians of {ROUNDS} rounds of {REPEAT} moving frames, milliseconds.\n")
+    print("| scene | size | yardstick, build + trace | sort | bin | upload | cast | `total` | `total` / yardstick | goal | "
+          "at most | reached |\n|-|-|-|-|-|-|-|-|-|-|-|-|")
+    print("\n".join(rows))
+
+
+def print_paper(program, wanted):
+    """The paper's passes and tile in turn."""
+    rows, renderer = [], ""
+    for name in wanted:
+        if name not in PAPER:
+            continue
+        file, least = PAPER[name]
+        times = {"list": [], "tile": []}
+        for _ in range(ROUNDS):
+            for method, more in (("list", ["--gather", "paper"]), ("tile", [])):
+                stats = draw(program, scene_path(file), "640x480", method, [*options_of(name), *more])
+                times[method].append(median_ms(stats)["total"])
+                renderer = stats["renderer"]
+        paper, tile = (statistics.median(times[method]) for method in ("list", "tile"))
+        reached = "yes" if paper / tile >= least else "no"
+        rows.append(f"| {name} | {paper:.1f} | {tile:.1f} | {paper / tile:.2f} | {least} | {reached} |")
+    print(f"{renderer}; 640x480, medians of {ROUNDS} rounds of {REPEAT} moving frames, `total` in milliseconds.\n")
+    print("| scene | `list --gather paper` | `tile` | times faster | at least | reached |\n|-|-|-|-|-|-|")
+    print("\n".join(rows))
+
+
+def print_large(program, _):
+    stats = draw(program, "dense:1600000", "1024x768", "tile", options_of("D"))
+    ms, peak = median_ms(stats), stats["memory"]["peak_rss_bytes"] / 2**20
+    print(f"{stats['renderer']}; 1,600,000 balls, dense, 1024x768, median of {REPEAT} moving frames: {ms['total']:.0f} ms "
+          f"(sort {ms['sort']:.0f}, bin {ms['bin']:.0f}, upload {ms['upload']:.0f}, cast {ms['cast']:.0f}); at most "
+          f"{LARGE_MOST_MS}. Peak memory {peak:.0f} MiB.")
+
+
+TABLES = {"ratios": print_ratios, "paper": print_paper, "large": print_large}
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3 or sys.argv[1] not in TABLES:
+        fail(f"expected {', '.join(TABLES)}, the program and scenes")
+    scenes = sys.argv[3:] or list(RATIOS)
+    for unknown in set(scenes) - set(RATIOS):
+        fail(f"no scene '{unknown}'; known: {', '.join(RATIOS)}")
+    TABLES[sys.argv[1]](sys.argv[2], scenes)
