@@ -39,14 +39,14 @@ static void default_runs_are_all_but_the_truth(void **state)
     (void)state;
     run_spec *runs;
     size_t count;
-    bool seen[MNS_SOLVER_CUBIC_MONOMIAL + 1] = {false};
+    bool seen[MNS_SOLVER_SECANT + 1] = {false};
     mns_error error;
     assert_int_equal(run_parse(NULL, &runs, &count, &error), MNS_OK);
     for (size_t i = 0; i < count; i++) {
         assert_int_not_equal(runs[i].options.method, MNS_METHOD_REFERENCE);
         seen[runs[i].options.solver] = true;
     }
-    for (int i = 0; i <= MNS_SOLVER_CUBIC_MONOMIAL; i++) assert_true(seen[i]);
+    for (int i = 0; i <= MNS_SOLVER_SECANT; i++) assert_true(seen[i]);
     free(runs);
 }
 
