@@ -8,6 +8,7 @@ uint links_first = NO_NODE;
 uint links_past = NO_NODE;
 REAL active_from = NUM(0.0);
 int links_work = 0;     // nodes visited, so that no dispatch runs without end
+#define PIECE_PAUSE (links_work > WALK_BUDGET)
 
 // The node's chord in this precision; false where the ray misses the ball.
 bool links_chord(uvec4 link, out Chord chord)
@@ -70,28 +71,63 @@ uint active_ball(Place place)
     return place.link.x;
 }
 
+Place links_here;    // the place that links_next has come to
+uint links_node;     // and the node after it
+bool links_leading;  // all before it has ended
+REAL links_end;      // the next place, of those come to, at which a chord begins or ends
+int links_size = -1; // places that the last round went over; -1 before the first
+
+void links_begin(REAL s)
+{
+    active_from = s;
+    links_node = links_first;
+    links_leading = true;
+    links_end = FAR_AWAY;
+    links_size = 0;
+}
+
+// The next place of the stretch whose chord reaches beyond s; the list is read on to all that may begin before links_end or `ahead`.
+// False: there is none. What has ended at the head of the stretch is let go.
+bool links_next(REAL s, REAL ahead)
+{
+    for (;;) {
+        if (links_node == links_past) {
+            REAL near = links_near();
+            if (links_past == NO_NODE || (near > links_end && near > ahead)) return false;
+            links_past = list_node(links_past).y;
+        }
+        links_here = links_at(links_node);
+        links_node = links_here.link.y;
+        links_size++;
+        if (links_here.holds && links_here.chord.b > s) {
+            Chord chord = links_here.chord;
+            links_leading = false;
+            links_end = min(links_end, chord.a > s ? chord.a : chord.b);
+            return true;
+        }
+        if (links_leading) links_first = links_node;
+    }
+}
+
 // From s on: the next place at which a chord begins or ends, all balls read that may begin before. FAR_AWAY: there is none.
 REAL links_stop(REAL s)
 {
-    REAL stop = FAR_AWAY;
-    bool leading = true; // all before has ended: let it go
-    active_from = s;
-    uint node = links_first;
-    REAL near = NUM(0.0);
-    for (;;) {
-        if (node == links_past) {
-            near = links_near();
-            if (near > stop || links_past == NO_NODE) return stop;
-            links_past = list_node(links_past).y;
-        }
-        Place place = links_at(node);
-        node = place.link.y;
-        if (!place.holds || place.chord.b <= s) {
-            if (leading) links_first = node;
-            continue;
-        }
-        leading = false;
-        stop = min(stop, place.chord.a > s ? place.chord.a : place.chord.b);
+    links_begin(s);
+    while (links_next(s, s)) {
     }
-    return stop;
+    return links_end;
+}
+
+const int LINKS_FEW = 48;
+
+// Whether so many balls lie between the first that reaches on and s that a round over them is long.
+bool links_crowded(REAL s)
+{
+    if (links_size >= 0) return links_size > LINKS_FEW;
+    uint node = links_first;
+    for (int i = 0; i < LINKS_FEW && node != NO_NODE; i++) node = list_node(node).y;
+    links_work += LINKS_FEW;
+    if (node == NO_NODE) return false;
+    uvec4 link = list_node(node);
+    return NUM(stream_distance(uintBitsToFloat(link.z), uintBitsToFloat(link.w), float(ball_get(link.x).radius))) <= s;
 }

@@ -7,6 +7,7 @@ const int PIECE_NONE = 0;    // stays below zero up to the end (or into the marg
 const int PIECE_HIT = 1;     // rises through zero
 const int PIECE_OPEN = 2;    // rounding could decide
 const int PIECE_CAP = 3;     // the search took too many steps
+const int PIECE_LATER = 4;   // no verdict yet: to be taken up where the search has come to
 
 const int SEES_NONE = 0, SEES_ONE = 1, SEES_OPEN = 2;
 

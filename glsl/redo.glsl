@@ -10,7 +10,7 @@ layout(std430, binding = 3) buffer Redo {
     uint count_undecided;  // pixels that doubles left open
     uint count_unfinished; // entries that wait for another dispatch
     uint count_spare;
-    uvec4 redo_entry[];    // pixel x + 65536 y; state; where the walk has come to, as bits
+    uvec4 redo_entry[];    // pixel x + 65536 y; state + 4 * the walk's own; where the walk has come to, as bits
 };
 
 const uint REDO_FLOAT = 1u;   // walk on in float

@@ -13,6 +13,7 @@
 #include "side.glsl"
 #include "loops.glsl"
 #include "active_links.glsl"
+#include "leap.glsl"
 #include "exact.glsl"
 #include "surface.glsl"
 #include "planes.glsl"
@@ -37,19 +38,34 @@ const uint RESOLVE_STATE = REDO_FLOAT;
 uvec2 resolve_pack(REAL s) { return uvec2(floatBitsToUint(s), 0u); }
 REAL resolve_unpack(uvec2 bits) { return uintBitsToFloat(bits.x); }
 #endif
-const int RESOLVE_LATER = 9; // beside the verdicts of a piece
+
+// A search by the curvature takes short steps where L is far below a ball's peak; it pauses when it has done enough for a dispatch.
+#if KERNEL > DENSITY_WYVILL
+const int RESOLVE_SEARCH = 16 * RESOLVE_STEPS;
+#else
+const int RESOLVE_SEARCH = RESOLVE_STEPS;
+#endif
 
 // Walks on from s until there is a verdict, or too much work for one dispatch.
 int resolve_walk(REAL limit, inout REAL s)
 {
     while (links_work < WALK_BUDGET) {
-        REAL stop = links_stop(s);
+        REAL stop;
+        if (links_crowded(s)) {
+            REAL clear = leap_clear(s, SIDE, stop);
+            if (clear > s) {
+                s = clear;
+                continue;
+            }
+        } else {
+            stop = links_stop(s);
+        }
         if (stop == FAR_AWAY || s >= limit) return PIECE_NONE;
         piece_begin();
         EACH_ACTIVE(j) piece_take(active_chord(j), s, stop);
         if (piece_may(s, stop, SIDE)) {
             REAL hit;
-            int found = piece_solve(s, stop, SIDE, RESOLVE_STEPS, hit);
+            int found = piece_solve(s, stop, SIDE, RESOLVE_SEARCH, hit);
             links_work += 64;
             if (found != PIECE_NONE) {
                 s = hit;
@@ -58,7 +74,7 @@ int resolve_walk(REAL limit, inout REAL s)
         }
         s = stop;
     }
-    return RESOLVE_LATER;
+    return PIECE_LATER;
 }
 
 void main()
@@ -66,14 +82,15 @@ void main()
     uint index = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * uint(REDO_GROUP);
     if (index >= redo_count) return;
     uvec4 entry = redo_entry[index];
-    if (entry.y != RESOLVE_STATE) return;
+    if ((entry.y & 3u) != RESOLVE_STATE) return;
     ivec2 at = ivec2(entry.x & 0xffffu, entry.x >> 16u);
     vec2 position = vec2(at) + 0.5;
     links_ray = view_ray(position);
 #ifdef TILES
     list_ray = links_ray;
 #endif
-    links_first = list_head(at);
+    links_first = entry.y >> 2u;
+    if (links_first == NO_NODE) links_first = list_head(at);
     links_past = links_first;
     REAL limit = FAR_AWAY;
 #ifdef HOST_DEPTH
@@ -93,8 +110,8 @@ void main()
         return;
     }
 #endif
-    if (found == RESOLVE_LATER && whole) {
-        redo_entry[index] = uvec4(entry.x, RESOLVE_STATE, resolve_pack(s));
+    if (found == PIECE_LATER && whole) {
+        redo_entry[index] = uvec4(entry.x, RESOLVE_STATE | links_first << 2u, resolve_pack(s));
         atomicAdd(count_unfinished, 1u);
         return;
     }

@@ -54,30 +54,63 @@ bool piece_may(REAL s, REAL stop, REAL side)
     return side > NUM(0.0) || taylor_peak + taylor_margin >= level.x;
 }
 
+// The bounds of a part of the piece, from s to `end`.
+void taylor_part(REAL s, REAL end)
+{
+    piece_begin();
+    EACH_ACTIVE(j) piece_take(active_chord(j), s, end);
+    taylor_margin *= TAU;
+}
+
+const int TAYLOR_PARTS = 8;
+
+// What rounding may do goes by the kernels' slopes, and towards the end of a chord these are far less than anywhere on the piece.
+// So where nothing is proven, the bounds are taken again over a sixteenth of what lies ahead, and then of that.
 int piece_solve(REAL s, REAL stop, REAL side, int steps, out REAL hit)
 {
-    REAL margin = taylor_margin;
-    REAL rise = side < NUM(0.0) ? taylor_rise : taylor_sink;
-    REAL bend = max(taylor_rise, taylor_sink);
-    hit = s;
+    REAL begin = s;
+    REAL end = stop; // the bounds hold up to here
+    int parts = 0;
     for (int step = 0; step < steps; step++) {
+        hit = s;
+#ifdef PIECE_PAUSE
+        if (s > begin && PIECE_PAUSE) return PIECE_LATER; // all before s is proven
+#endif
+        REAL margin = taylor_margin;
+        REAL rise = side < NUM(0.0) ? taylor_rise : taylor_sink;
+        REAL bend = max(taylor_rise, taylor_sink);
         Slope at = taylor_at(s, side);
-        if (at.value >= NUM(-2.0) * margin) {
+        REAL next = s;
+        if (at.value < NUM(-2.0) * margin) {
+            REAL lack = -margin - at.value;
+            REAL ahead = end - s;
+            bool clear = at.value + ahead * (at.slope + NUM(0.5) * rise * ahead) < -margin;
+            REAL root = sqrt(at.slope * at.slope + NUM(2.0) * rise * lack);
+            REAL h = at.slope > NUM(0.0) ? NUM(2.0) * lack / (at.slope + root) : (root - at.slope) / rise;
+            if (clear || !(h < ahead)) {
+                if (end == stop) return PIECE_NONE;
+                s = end;
+                end = stop;
+                taylor_part(s, end);
+                continue;
+            }
+            next = s + h;
+        } else {
             hit = at.slope > NUM(0.0) ? s - at.value / at.slope : s;
             bool crosses = at.slope > NUM(0.0) && at.slope * at.slope > NUM(4.0) * bend * (NUM(3.0) * margin + abs(at.value));
 #ifdef EYE_IN_BALL
             crosses = crosses && s > RAY_BEGIN; // which side the ray starts on must be certain too
 #endif
-            return crosses && at.value <= NUM(2.0) * margin ? PIECE_HIT : PIECE_OPEN;
+            if (crosses && at.value <= NUM(2.0) * margin) return PIECE_HIT;
         }
-        REAL lack = -margin - at.value;
-        REAL ahead = stop - s;
-        if (at.value + ahead * (at.slope + NUM(0.5) * rise * ahead) < -margin) return PIECE_NONE;
-        REAL root = sqrt(at.slope * at.slope + NUM(2.0) * rise * lack);
-        REAL h = at.slope > NUM(0.0) ? NUM(2.0) * lack / (at.slope + root) : (root - at.slope) / rise;
-        if (!(h < ahead)) return PIECE_NONE;
-        if (s + h == s) return PIECE_OPEN;
-        s += h;
+        if (next == s) { // no way ahead
+            end = s + (end - s) / NUM(16.0);
+            if (parts == TAYLOR_PARTS || !(end > s)) return PIECE_OPEN;
+            parts++;
+            taylor_part(s, end);
+        }
+        s = next;
     }
+    hit = s;
     return PIECE_CAP;
 }

@@ -40,7 +40,7 @@ void stiff_coincident(stiff_scene *scene, const double *number)
     for (int i = 0; i < (int)number[0]; i++)
         stiff_ball(scene, vec3_scale(stiff_random_ball(&random), number[1]), 1, 1);
     if (number[2] > 0) scene->iso = number[2];
-    stiff_look(scene, vec3_make(0, 1, 3), vec3_make(0, 0, 0), 45, 32, 24);
+    stiff_look(scene, vec3_make(0, 1, 3), vec3_make(0, 0, 0), 45, 16, 12);
 }
 
 /* Pairs of a strength and all but its negative, a body's worth of them: each pair is worth 1. */

@@ -1,0 +1,62 @@
+// Leaps of a walk over a crowd: far over many balls' ends at once, where a sum of bounds stays on its side of L.
+//
+// Walked from end to end, n balls around one place cost n pieces of n balls each. Over a stretch [s, s + h] of the ray a ball's density
+// lies between what it is at the end further from the chord's middle and at the place nearest to it (zero beyond the chord's
+// ends); the sums of these bound f. A few lengths h are tried at once, and the longest that is clear is taken: towards the root they
+// shrink like a geometric series, so that a crowd is read some tens of times, not n times.
+
+const int LEAPS = 6;                       // lengths, each a quarter of the one before
+const REAL LEAP_LONGEST = NUM(0.5);        // in radii of the first ball that reaches on
+const REAL LEAP_SUM = NUM(0.125) * TAU;    // what adding one more number may round, relative to the sum: well above a half step
+
+REAL leap_sum[LEAPS];    // the most that f can be, seen from outside; the least, from inside
+REAL leap_size[LEAPS];   // of the sums of absolute values
+REAL leap_margin[LEAPS]; // of rounding, over TAU
+
+void leap_begin()
+{
+    for (int k = 0; k < LEAPS; k++) leap_sum[k] = leap_size[k] = leap_margin[k] = NUM(0.0);
+}
+
+// Adds a ball to the stretches [s, s + h], [s, s + h/4], ... that it reaches into.
+void leap_take(Chord chord, REAL s, REAL h, REAL side)
+{
+    REAL middle = NUM(0.5) * (chord.a + chord.b);
+    for (int k = 0; k < LEAPS; k++) {
+        REAL to = s + h;
+        if (chord.a >= to) return;
+        REAL near = clamp(middle, s, to);
+        REAL far = abs(s - middle) > abs(to - middle) ? s : to;
+        REAL most = clamp((near - chord.a) * (chord.b - near) * chord.shrink, NUM(0.0), NUM(1.0));
+        REAL least = clamp((far - chord.a) * (chord.b - far) * chord.shrink, NUM(0.0), NUM(1.0));
+        bool high = (chord.strength > NUM(0.0)) == (side < NUM(0.0));
+        leap_sum[k] += chord.strength * density_value(KERNEL, NUM(1.0) - (high ? most : least));
+        leap_size[k] += abs(chord.strength) * density_value(KERNEL, NUM(1.0) - most);
+        leap_margin[k] += abs(chord.strength) * density_slope_bound(KERNEL, most) * chord_reach(chord, to);
+        h *= NUM(0.25);
+    }
+}
+
+// How far from s on f surely stays on its side of L: s where nothing is proven. Then `stop` is the end of a piece to be searched,
+// no further than any of the balls' ends, and near: what a search allows for rounding grows with the piece.
+REAL leap_clear(REAL s, REAL side, out REAL stop)
+{
+    REAL h = LEAP_LONGEST * ball_get(list_node(links_first).x).radius;
+    REAL count = NUM(0.0);
+    leap_begin();
+    links_begin(s);
+    while (links_next(s, s + h)) {
+        leap_take(links_here.chord, s, h, side);
+        count += NUM(1.0);
+    }
+    stop = links_end;
+    for (int k = 0; k < LEAPS; k++) {
+        REAL doubt = TAU * leap_margin[k] + LEAP_SUM * count * leap_size[k];
+        if (side * (leap_sum[k] - level.x) > doubt) return s + h > stop ? s + h : s;
+        h *= NUM(0.25);
+    }
+#if KERNEL > DENSITY_WYVILL
+    if (s + NUM(16.0) * h > s) stop = min(stop, s + NUM(16.0) * h);
+#endif
+    return s;
+}
