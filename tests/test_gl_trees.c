@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <cmocka.h>
 
@@ -170,9 +171,9 @@ static void the_next_frames_tree_is_built_while_this_one_is_drawn(void **state)
     }
     if (mns_renderer_prepare(d->renderer, field, &options, &error)) fail_msg("%s", error.text);
     for (size_t i = 0; i < FRAMES; i++) {
-        double until =
-            clock_ms() + 20 * longest(alone, MNS_PHASE_BUILD, FRAMES); /* the frame before is drawn */
-        while (!d->renderer->worker.ahead.tree && clock_ms() < until) {}
+        double until = clock_ms() + 1000 + 20 * longest(alone, MNS_PHASE_BUILD, FRAMES);
+        while (!atomic_load(&d->renderer->worker.done) && clock_ms() < until) /* the frame before is drawn */
+            nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
         ahead[i] = draw_by(d, field, &options);
         if (mns_renderer_prepare(d->renderer, field, &options, &error)) fail_msg("%s", error.text);
     }
