@@ -5,6 +5,7 @@ uint leaf_first = 0u;
 uint leaf_past = 0u;
 REAL active_from = NUM(0.0);
 int leaf_work = 0; // references visited, so that no dispatch runs without end
+#define PIECE_PAUSE (leaf_work > WALK_BUDGET)
 
 // A place of the run. Used as EACH_ACTIVE(j) statement, with active_chord(j), active_ball(j).
 struct Place {

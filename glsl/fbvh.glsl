@@ -61,8 +61,9 @@ void main()
 #endif
         Surface surface = surface_at(ray, got.t);
 #if SOLVER == SOLVER_EXACT
-        // A Newton step that is not small is no correction: double shall decide.
-        if (!(abs(surface.shift) <= 1.0e-4 * surface.radius)) found = PIECE_OPEN;
+        // A leaf's face may cut a hump between its two roots, and so leave one that is certain and yet ill placed: such a Newton
+        // step is not small, and double shall decide.
+        if (!surface_settled(surface, got.t) || !(abs(surface.shift) <= 1.0e-4 * surface.radius)) found = PIECE_OPEN;
 #else
         surface.shift = 0.0;
 #endif

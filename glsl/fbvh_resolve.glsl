@@ -39,7 +39,13 @@ const uint RESOLVE_STATE = REDO_FLOAT;
 uvec2 resolve_pack(REAL s) { return uvec2(floatBitsToUint(s), 0u); }
 REAL resolve_unpack(uvec2 bits) { return uintBitsToFloat(bits.x); }
 #endif
-const int RESOLVE_LATER = 9; // beside the verdicts of a piece
+
+// As in resolve.glsl: a search by the curvature pauses when it has done enough for a dispatch.
+#if KERNEL > DENSITY_WYVILL
+const int RESOLVE_SEARCH = 16 * RESOLVE_STEPS;
+#else
+const int RESOLVE_SEARCH = RESOLVE_STEPS;
+#endif
 
 struct Stretch {
     REAL begin, end;    // begin FAR_AWAY: none is left
@@ -135,7 +141,7 @@ int resolve_walk(REAL limit, REAL side, inout REAL s)
     while (leaf_work < WALK_BUDGET) {
         Stretch stretch = stretch_after(s, limit);
         bool gap = stretch.begin > s;
-#ifdef EYE_INSIDE
+#if defined(EYE_INSIDE) || defined(EYE_ON)
         // From inside, what no leaf knows lies outside: the way out is here, but for rounding.
         if (side > NUM(0.0) && gap && s < limit) {
             active_from = s;
@@ -158,7 +164,7 @@ int resolve_walk(REAL limit, REAL side, inout REAL s)
             EACH_ACTIVE(j) piece_take(active_chord(j), s, stop);
             if (piece_may(s, stop, side)) {
                 REAL hit;
-                int found = piece_solve(s, stop, side, RESOLVE_STEPS, hit);
+                int found = piece_solve(s, stop, side, RESOLVE_SEARCH, hit);
                 leaf_work += 64;
                 // A leaf entered on the far side of the surface: its face is the hit.
                 if (found == PIECE_OPEN && face && !begun && resolve_past(s, side) > NUM(0.0)) {
@@ -176,7 +182,7 @@ int resolve_walk(REAL limit, REAL side, inout REAL s)
             s = stop;
         }
     }
-    return RESOLVE_LATER;
+    return PIECE_LATER;
 }
 
 void main()
@@ -200,14 +206,14 @@ void main()
     if (found == PIECE_HIT) surface = surface_at(leaf_ray, s);
     bool whole = loops_whole(int(level_two));
 #ifndef MNS_DOUBLE
-    if (found == PIECE_HIT && !(abs(surface.shift) <= 1.0e-2 * surface.radius)) found = PIECE_OPEN;
+    if (found == PIECE_HIT && !surface_settled(surface, s)) found = PIECE_OPEN;
     if (found == PIECE_OPEN || found == PIECE_CAP || !whole) {
         atomicAdd(count_float, 1u);
         redo_entry[index] = uvec4(entry.x, REDO_DOUBLE, 0u, 0u);
         return;
     }
 #endif
-    if (found == RESOLVE_LATER && whole) {
+    if (found == PIECE_LATER && whole) {
         redo_entry[index] = uvec4(entry.x, RESOLVE_STATE, resolve_pack(s));
         atomicAdd(count_unfinished, 1u);
         return;

@@ -3,6 +3,10 @@
 // In a fitted tree leaves share at most faces, so the first hit met is the hit. In an overlapping tree (OVERLAPS) a leaf knows the
 // field only where one of its own balls' spheres covers the ray, and the walk goes on where leaves may begin before the best hit.
 
+#if defined(EYE_INSIDE) || defined(EYE_ON)
+#define MAY_BE_INSIDE
+#endif
+
 struct Cast {
     int found;      // verdict of a piece
     float t;        // the hit, or where the walk gave up
@@ -47,7 +51,7 @@ void cast_find_leaf()
         cast_s = cast_leaf.begin;
         cast_stop = min(cast_stop, cast_leaf.end);
         cast_held = meets && slot_count > 0;
-#ifdef EYE_INSIDE
+#ifdef MAY_BE_INSIDE
         cast_held = cast_held && (cast_side > 0.0 || most >= level.x);
 #else
         cast_held = cast_held && most >= level.x;
@@ -157,7 +161,7 @@ Cast tree_cast(Ray ray, float begin, float limit, float side)
         for (;;) {
             cast_find_leaf();
             if (!cast_held || slot_overflow || cast_work >= WALK_BUDGET) break;
-#if defined(EYE_INSIDE) && !defined(OVERLAPS)
+#if defined(MAY_BE_INSIDE) && !defined(OVERLAPS)
             // From inside, what no leaf covers lies outside already: the way out was passed within rounding.
             if (cast_side > 0.0 && cast_leaf.begin > cast_cover) {
                 best.found = PIECE_OPEN;
@@ -197,7 +201,7 @@ Cast tree_cast(Ray ray, float begin, float limit, float side)
 #endif
     }
     if (best.t > limit && best.found == PIECE_HIT) best.found = PIECE_NONE;
-#ifdef EYE_INSIDE
+#ifdef MAY_BE_INSIDE
     if (side > 0.0 && best.found == PIECE_NONE && cast_cover < limit) best.found = PIECE_OPEN; // it must come out
 #endif
     return best;
