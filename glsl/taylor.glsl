@@ -62,6 +62,30 @@ void taylor_part(REAL s, REAL end)
     taylor_margin *= TAU;
 }
 
+const int TAYLOR_CLIMB = 12;
+
+// From s, where the field is within the margin of L: goes up through it by steps over which the slope cannot vanish. True: it rises
+// through L once, at `hit`.
+bool taylor_climbs(REAL s, REAL end, Slope from, REAL side, out REAL hit)
+{
+    REAL margin = taylor_margin;
+    REAL bend = max(taylor_rise, taylor_sink);
+    REAL x = s;
+    Slope at = from;
+    hit = s;
+    for (int step = 0; step < TAYLOR_CLIMB && from.value <= NUM(2.0) * margin; step++) {
+        if (!(at.slope > NUM(0.0) && at.slope * at.slope > bend * margin)) return false; // else rounding could make it a slope
+        x += NUM(0.5) * at.slope / bend;
+        if (!(x < end)) return false;
+        at = taylor_at(x, side);
+        if (at.value > NUM(2.0) * margin) {
+            hit = s + (x - s) * clamp(-from.value / (at.value - from.value), NUM(0.0), NUM(1.0));
+            return true;
+        }
+    }
+    return false;
+}
+
 const int TAYLOR_PARTS = 8;
 
 // What rounding may do goes by the kernels' slopes, and towards the end of a chord these are far less than anywhere on the piece.
@@ -102,6 +126,13 @@ int piece_solve(REAL s, REAL stop, REAL side, int steps, out REAL hit)
             crosses = crosses && s > RAY_BEGIN; // which side the ray starts on must be certain too
 #endif
             if (crosses && at.value <= NUM(2.0) * margin) return PIECE_HIT;
+#ifdef MNS_DOUBLE
+            REAL root;
+            if (s > begin && taylor_climbs(s, end, at, side, root)) {
+                hit = root;
+                return PIECE_HIT;
+            }
+#endif
         }
         if (next == s) { // no way ahead
             end = s + (end - s) / NUM(16.0);

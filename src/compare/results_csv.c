@@ -74,7 +74,8 @@ static void write_row(FILE *file, const char *name_of_case, const json_t *run)
     fputc(',', file);
     write_settings(file, json_object_get(run, "settings"));
     write_number(file, json_object_get(run, "frames"));
-    for (size_t i = 0; i < LENGTH(ms_names); i++) write_number(file, json_object_get(ms, ms_names[i]));
+    for (size_t i = 0; i < LENGTH(ms_names); i++) /* of a suite's run there is one number */
+        write_number(file, i || json_is_object(ms) ? json_object_get(ms, ms_names[i]) : ms);
     for (int p = 0; p < MNS_PHASE_SHADE; p++)
         write_number(file, json_object_get(phases, mns_phase_name((mns_phase)p)));
     for (size_t i = 0; i < LENGTH(COUNTS); i++) write_number(file, json_object_get(errors, COUNTS[i]));

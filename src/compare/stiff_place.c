@@ -102,10 +102,11 @@ void stiff_near_plane(stiff_scene *scene, const double *number)
     stiff_look(scene, eye, vec3_make(0.5, 0.5, 0.5), 100, 96, 72);
 }
 
+/* The same ring, which a very wide view sees all of. */
 void stiff_wide_view(stiff_scene *scene, const double *number)
 {
-    stiff_body(scene, 1, vec3_make(0, 0, 0));
-    stiff_look(scene, vec3_make(0.5, 0.5, 1.6), vec3_make(0.5, 0.5, 0.5), number[0], 96, 72);
+    stiff_near_plane(scene, number);
+    scene->view.fov = number[0];
 }
 
 void stiff_frame(stiff_scene *scene, const double *number)

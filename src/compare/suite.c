@@ -165,6 +165,7 @@ static mns_status run_case(suite_job *job, mns_error *error)
 static bool wanted(const suite_options *o, const stiff_case *which)
 {
     if (o->quick && which->flags & STIFF_HEAVY) return false;
+    if (o->kernel && which->kernel != o->kernel) return false;
     return !o->only || fnmatch(o->only, which->name, 0) == 0;
 }
 

@@ -33,9 +33,10 @@ typedef struct suite_options {
     mns_renderer *renderer;
     const run_spec *runs;
     size_t run_count;
-    const char *only; /* cases whose name matches this pattern, as fnmatch has it; NULL: all */
-    bool quick;       /* leave the heavy cases out; draw once, so that times are of cold frames */
-    bool use_cache;   /* of truths */
+    const char *only;  /* cases whose name matches this pattern, as fnmatch has it; NULL: all */
+    mns_kernel kernel; /* cases of this kernel; DEFAULT: of all */
+    bool quick;        /* leave the heavy cases out; draw once, so that times are of cold frames */
+    bool use_cache;    /* of truths */
     void (*seen)(void *context, const suite_line *line); /* NULL, or called as runs end */
     void *context;
 } suite_options;
