@@ -28,13 +28,33 @@ uint list_head(ivec2 pixel)
     return tile_head(tile.y * tile_grid.z + tile.x);
 }
 
+// Balls that the ray misses which one look may pass over; none where rounds of loops are counted.
+#ifdef RESOLVE_STEPS
+const int TILE_SKIP = 0;
+#else
+const int TILE_SKIP = 62;
+#endif
+
+bool tile_misses(Ball ball)
+{
+    REAL middle;
+    REAL3 offset = chord_offset(ball.centre - list_ray.start, list_ray.way, middle);
+    return dot(offset, offset) >= ball.radius * ball.radius;
+}
+
+// Each lane goes ahead to its next ball that the ray meets. What is used behind the loop is written before it and in its last
+// statement: llvmpipe's storage loads give zero to lanes that have left, and a value of the loop's middle would be that zero.
 uvec4 list_node(uint node)
 {
     uint entry = tile_entry(node);
-    uint index = entry & 0x7fffffffu;
-    Ball ball = ball_get(index);
+    Ball ball = ball_get(entry & 0x7fffffffu);
+    for (int skipped = 0; skipped < TILE_SKIP && entry < 0x80000000u && tile_misses(ball); skipped++) {
+        entry = tile_entry(++node);
+        ball = ball_get(entry & 0x7fffffffu);
+    }
     REAL2 ends;
     bool meets = chord_ends(ball.centre - list_ray.start, ball.radius, list_ray.way, NUM(0.0), ends);
     vec2 chord = vec2(ends);
-    return uvec4(index, index == entry ? node + 1u : NO_NODE, floatBitsToUint(chord.x), floatBitsToUint(meets ? chord.y : chord.x));
+    uint next = entry < 0x80000000u ? node + 1u : NO_NODE;
+    return uvec4(entry & 0x7fffffffu, next, floatBitsToUint(chord.x), floatBitsToUint(meets ? chord.y : chord.x));
 }

@@ -30,27 +30,30 @@ void list_pack_high(const list_order *order, const mns_field *field, const mns_p
                stride * sizeof *out);
 }
 
-void list_pack_low(const list_order *order, const mns_field *field, const mns_plan *plan, float *out)
+void list_pack_low_ball(const list_order *order, const mns_field *field, const mns_plan *plan, size_t place,
+                        float *out)
 {
     size_t stride = plan->ball_floats;
-    bool radii = plan->features & FEATURE_RADII, strengths = plan->features & FEATURE_STRENGTHS;
-#pragma omp parallel for if (order->count > ORDER_ALONE)
-    for (size_t place = 0; place < order->count; place++) {
-        const list_ball *ball = list_ball_at(order, place);
-        float *to = out + place * stride;
-        for (int axis = 0; axis < 3; axis++) {
-            double exact = field->p.axis[axis][ball->index] - plan->origin[axis];
-            to[axis] = (float)(exact - (double)ball->position[axis]);
-        }
-        if (radii) {
-            double exact = field->p.radius[ball->index];
-            to[3] = (float)(exact - (double)rounded(exact));
-        }
-        if (strengths) {
-            double exact = field->p.strength[ball->index];
-            to[stride - 1] = (float)(exact - (double)rounded(exact));
-        }
+    const list_ball *ball = list_ball_at(order, place);
+    float *to = out + place * stride;
+    for (int axis = 0; axis < 3; axis++) {
+        double exact = field->p.axis[axis][ball->index] - plan->origin[axis];
+        to[axis] = (float)(exact - (double)ball->position[axis]);
     }
+    if (plan->features & FEATURE_RADII) {
+        double exact = field->p.radius[ball->index];
+        to[3] = (float)(exact - (double)rounded(exact));
+    }
+    if (plan->features & FEATURE_STRENGTHS) {
+        double exact = field->p.strength[ball->index];
+        to[stride - 1] = (float)(exact - (double)rounded(exact));
+    }
+}
+
+void list_pack_low(const list_order *order, const mns_field *field, const mns_plan *plan, float *out)
+{
+#pragma omp parallel for if (order->count > ORDER_ALONE)
+    for (size_t place = 0; place < order->count; place++) list_pack_low_ball(order, field, plan, place, out);
 }
 
 void list_pack_cores(const list_order *order, const mns_field *field, float *out)

@@ -54,7 +54,10 @@ static mns_status upload(draw *d, gl_buffer *buffer, const char *what, size_t fl
             list_pack_high(order, d->field, d->plan, data);
             break;
         case 1:
-            list_pack_low(order, d->field, d->plan, data);
+            if (d->plan->features & FEATURE_TILES)
+                tile_bins_pack_low(&d->r->bins, order, d->field, d->plan, data);
+            else
+                list_pack_low(order, d->field, d->plan, data);
             break;
         case 2:
             list_pack_cores(order, d->field, data);
@@ -95,7 +98,8 @@ mns_status draw_balls_upload(draw *d, mns_error *error)
     draw_mark(d, MNS_PHASE_SORT);
     if (!status) status = upload(d, &p->balls, "balls", d->plan->ball_floats, 0, error);
     if (!status && d->plan->features & FEATURE_POINTS) status = count_backwards(d, error);
-    if (!status && d->plan->features & FEATURE_CORE_RADII)
+    bool tiles = d->plan->features & FEATURE_TILES; /* whose cores stay on the CPU */
+    if (!status && d->plan->features & FEATURE_CORE_RADII && !tiles)
         status = upload(d, &p->cores, "core radii", 1, 2, error);
     if (!status && d->plan->features & FEATURE_COLORS) status = upload(d, &p->colors, "colours", 1, 3, error);
     draw_mark(d, MNS_PHASE_UPLOAD);

@@ -81,6 +81,7 @@ static mns_status bin(draw *d, list_region region, mns_error *error)
     if (!r->binned || !tile_outlines_serve(bins, d->plan))
         status = tile_outlines_make(bins, &r->order, d->field, d->plan, error);
     r->binned = !status;
+    r->last.low = false; /* of the former lists' balls */
     if (!status) status = tile_bins_make(bins, &r->order, d->field, d->plan, region, error);
     draw_mark(d, MNS_PHASE_BIN);
     if (!status && bins->fits) status = upload_tiles(d, error);

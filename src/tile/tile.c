@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/status.h"
 #include "field/kernel.h"
+#include "list/pack.h"
 #include "tile/mask.h"
 
 #include <omp.h>
@@ -188,7 +189,7 @@ static int choose_shift(const tile_bins *bins, size_t balls)
         count++;
     }
     double wide = count ? sum / (double)count : 64;
-    return wide < 8 ? 2 : wide < 64 ? 3 : wide < 256 ? 4 : 5;
+    return wide < 12 ? 2 : wide < 64 ? 3 : wide < 256 ? 4 : 5;
 }
 
 static mns_status reserve(tile_bins *bins, mns_error *error)
@@ -280,6 +281,17 @@ void tile_bins_write(const tile_bins *bins, uint32_t *entry, uint32_t *head)
             if (length) entry[head[tile] - 1] |= TILE_LAST;
             head[tile] = length ? head[tile] - length : 0;
         }
+    }
+}
+
+void tile_bins_pack_low(const tile_bins *bins, const list_order *order, const mns_field *field,
+                        const mns_plan *plan, float *out)
+{
+    for (int i = 0; i < bins->band_count; i++) {
+        const tile_band *band = &bins->band[i];
+        for (size_t k = 0; k < band->count; k++) /* a ball's pairs stand together */
+            if (k == 0 || band->pair[k].ball != band->pair[k - 1].ball)
+                list_pack_low_ball(order, field, plan, band->pair[k].ball, out);
     }
 }
 

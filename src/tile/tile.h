@@ -63,6 +63,9 @@ bool tile_bins_serve(const tile_bins *bins, const mns_plan *plan, list_region re
 /* Writes the lists: entry[0] is no list's, bins->count follow; head[t] is where tile t's list begins, 0 for
  * none. */
 void tile_bins_write(const tile_bins *bins, uint32_t *entry, uint32_t *head);
+/* What list_pack_low writes, of those balls that are in some list. */
+void tile_bins_pack_low(const tile_bins *bins, const list_order *order, const mns_field *field,
+                        const mns_plan *plan, float *out);
 /* Notes every pixel's list's length. False: out of memory. */
 bool tile_bins_lengths(const tile_bins *bins, list_lengths *lengths);
 void tile_bins_free(tile_bins *bins);
