@@ -16,7 +16,8 @@ mns_status compare_write(const json_t *document, const picture_list *pictures, c
 /* A run in one line on standard output. */
 void compare_print(const run_result *run);
 
-/* Runs the hard cases of o->suite. Errors: as their parts, INPUT where an exact solver fails inside the domain. */
+/* Runs the hard cases of o->suite. Errors: as their parts, INPUT where an exact solver fails inside the
+ * domain. */
 mns_status compare_suite(const app_options *o, const char *command, mns_error *error);
 
 /* Compares two saved images, the first being the truth. */

@@ -84,7 +84,8 @@ void stiff_level_alone(stiff_scene *scene, const double *number)
     double core = number[0] < 1 ? stiff_inverse(scene, number[0]) : 0;
     double spacing = fmax(6 * core, 1e-3); /* in radii: the cores are what is to be seen */
     for (int i = 0; i < 16; i++) {
-        vec3 at = vec3_make(2.5 * (i % 4 - 1.5), 2.5 * (i / 4 - 1.5), 0.1 * i);
+        int column = i % 4, row = i / 4;
+        vec3 at = vec3_make(2.5 * (column - 1.5), 2.5 * (row - 1.5), 0.1 * i);
         stiff_ball(scene, at, 1, 1);
     }
     /* straight at one centre, the frame a few cores wide */

@@ -24,7 +24,8 @@ static void put_cells(stiff_scene *scene, void (*put)(stiff_scene *, const cell 
     const mns_view *view = &scene->view;
     int across = view->width / CELL;
     for (int i = 0; i < across * (view->height / CELL); i++) {
-        double x = i % across * CELL + CELL / 2 + 0.5, y = i / across * CELL + CELL / 2 + 0.5, direction[3];
+        int column = i % across, row = i / across;
+        double x = (column + 0.5) * CELL + 0.5, y = (row + 0.5) * CELL + 0.5, direction[3];
         mns_view_ray(view, x, y, direction);
         vec3 along = vec3_load(direction), right = vec3_unit(vec3_cross(along, vec3_make(0, 1, 0)));
         vec3 up = vec3_cross(right, along);
@@ -114,7 +115,8 @@ void stiff_rings(stiff_scene *scene, const double *number)
 static void put_layer(stiff_scene *scene, double y, int n, double spacing, double strength)
 {
     for (int i = 0; i < n * n; i++) {
-        vec3 at = vec3_make(spacing * (i % n - 0.5 * (n - 1)), y, spacing * (i / n - 0.5 * (n - 1)));
+        int column = i % n, row = i / n;
+        vec3 at = vec3_make(spacing * (column - 0.5 * (n - 1)), y, spacing * (row - 0.5 * (n - 1)));
         stiff_ball(scene, at, 1, strength);
     }
 }
@@ -132,8 +134,8 @@ static void range_in_plane(const stiff_scene *scene, double spacing, double rang
 {
     range[0] = INFINITY, range[1] = 0;
     for (int i = 0; i < 121; i++) {
-        double f =
-            stiff_value(scene, vec3_make(spacing * (i % 11) / 10.0, 0, spacing * (double)(i / 11) / 10.0));
+        int column = i % 11, row = i / 11;
+        double f = stiff_value(scene, vec3_make(spacing * column / 10, 0, spacing * row / 10));
         range[0] = fmin(range[0], f), range[1] = fmax(range[1], f);
     }
 }

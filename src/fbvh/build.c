@@ -68,11 +68,12 @@ static mns_status set_bounds(const fbvh_options *o, size_t balls, work_node *roo
         return status_fail(error, MNS_ERROR_UNSUPPORTED,
                            "fbvh: %zu balls do not fit a buffer of %zu bytes; use the list, or fewer balls",
                            balls, block);
-    double wish = floor(o->references_a_ball * (double)balls), fits = (double)(block / sizeof(uint32_t));
-    fits = fmin(fits, (double)UINT32_MAX);
+    const size_t references = block / sizeof(uint32_t), nodes = block / sizeof(fbvh_node);
+    double wish = floor(o->references_a_ball * (double)balls);
+    double fits = fmin((double)references, (double)UINT32_MAX);
     root->references = fmin(wish, fits);
     /* n leaves are n - 1 pairs under the root's, which is one more. */
-    double leaves = fmin((double)(block / sizeof(fbvh_node)), (double)UINT32_MAX) / 2;
+    double leaves = fmin((double)nodes, (double)UINT32_MAX) / 2;
     root->leaves = fmin(root->references, leaves);
     figures->made_smaller = fits < wish || leaves < root->references;
     figures->reference_bound = (size_t)root->references;

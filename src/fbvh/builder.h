@@ -42,6 +42,6 @@ bool builder_work(fbvh_builder *builder, const work_set *set, const uint32_t *li
 bool builder_assemble(fbvh_builder *builder, const work_set *set, builder_slot *slot);
 
 /* Options with every default put in. Errors: USAGE. */
-mns_status fbvh_options_resolve(const fbvh_options *options, fbvh_options *resolved, mns_error *error);
+mns_status fbvh_options_resolve(const fbvh_options *options, fbvh_options *o, mns_error *error);
 
 #endif

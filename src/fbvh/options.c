@@ -74,10 +74,9 @@ static bool set_number(const char *name, size_t length, const char *value, size_
     bool whole = !IS("traversal-cost") && !IS("references");
     if (!read_number(value, value_length, IS("middle-levels") ? -1 : 0, 1e15, &number)) return false;
     if (whole && number != floor(number)) return false;
+    if (!IS("block-bytes") && number > 1e9) return false;
     if (IS("block-bytes"))
         o->max_block_bytes = (size_t)number;
-    else if (number > 1e9)
-        return false;
     else if (IS("discard-most"))
         o->discard_most = (unsigned)number;
     else if (IS("leaf-least"))

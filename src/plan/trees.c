@@ -28,7 +28,8 @@ static mns_status plan_tree(mns_plan *plan, const mns_field *field, mns_error *e
     if (status) return status;
     double texels = plan->limits.max_texture_buffer,
            references = tree->references_a_ball * (double)field->p.count;
-    double words = (double)(tree->max_block_bytes / sizeof(uint32_t));
+    const size_t whole_words = tree->max_block_bytes / sizeof(uint32_t);
+    double words = (double)whole_words;
     if ((references < words ? references : words) + 1 < texels && 5.0 * (double)field->p.count < texels)
         plan->features |= FEATURE_TEXELS;
     else
