@@ -141,8 +141,8 @@ static void hit_limits(const mns_field *field, const mns_view *view, size_t *act
     for (int i = 0; i < ACROSS * DOWN; i++) {
         double way[3];
         mns_hit hit;
-        mns_view_ray(view, view->width * (i % ACROSS + 0.5) / ACROSS,
-                     view->height * (i / ACROSS + 0.5) / DOWN, way);
+        int column = i % ACROSS, row = i / ACROSS;
+        mns_view_ray(view, view->width * (column + 0.5) / ACROSS, view->height * (row + 0.5) / DOWN, way);
         if (mns_reference_trace(reference, view->eye, way, &hit, &error)) fail_msg("%s", error.text);
         if (!hit.hit) continue;
         size_t around = 0;
