@@ -3,7 +3,7 @@
  * wanted. */
 #include "base/clock.h"
 #include "render/render.h"
-#include "support/draw_fixture.h"
+#include "support/host_fixture.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -188,6 +188,35 @@ static void the_next_frames_tree_is_built_while_this_one_is_drawn(void **state)
     draw_fixture_check(d);
 }
 
+/* ---- Hosts ---- */
+
+/* Over a host's framebuffer the nearer one wins, and rays end where the host drew nearer. */
+static void a_host_is_drawn_on_by_trees_too(void **state)
+{
+    draw_fixture *d = *state;
+    mns_error error;
+    renew(d);
+    mns_view view = host_view();
+    mns_field *field = host_cloud();
+    for (int method = MNS_METHOD_FBVH; method <= MNS_METHOD_BVH; method++) {
+        mns_options options = {.method = (mns_method)method};
+        mns_image *plain = draw_image(d, field, &view, NULL, &options);
+        host h = host_make(d, false);
+        mns_target target = {.framebuffer = h.framebuffer, .x = 23, .y = 17, .near = 0.1, .far = 10};
+        host_paint(d, &h, host_rectangle, 1.5, target.near, target.far);
+        if (mns_renderer_draw_on(d->renderer, field, &view, NULL, &options, &target, d->frame, &error))
+            fail_msg("%s", error.text);
+        host_pixels *got = host_read(d, &h);
+        host_outcome seen = host_expect_nearer_wins(got, plain, &view, &target, host_rectangle, 1.5, 1e-6);
+        if (seen.ours < 1000 || seen.behind < 300) fail_msg("%zu ours, %zu behind", seen.ours, seen.behind);
+        free(got);
+        host_free(d, &h);
+        mns_image_destroy(plain);
+    }
+    mns_field_destroy(field);
+    draw_fixture_check(d);
+}
+
 /* ---- Counts ---- */
 
 static void counts_are_made_where_they_are_asked_for(void **state)
@@ -241,6 +270,7 @@ int main(void)
         cmocka_unit_test(the_same_again_builds_and_sends_nothing),
         cmocka_unit_test(trees_built_ahead_give_the_same_pictures),
         cmocka_unit_test(the_next_frames_tree_is_built_while_this_one_is_drawn),
+        cmocka_unit_test(a_host_is_drawn_on_by_trees_too),
         cmocka_unit_test(counts_are_made_where_they_are_asked_for),
     };
     return cmocka_run_group_tests_name("trees", tests, draw_fixture_setup, draw_fixture_teardown);
