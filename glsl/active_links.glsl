@@ -31,11 +31,9 @@ bool links_chord(uvec4 link, out Chord chord)
 #endif
 }
 
-// Effective distance of the first ball that has not been read, in the ray's parameter, less what float and rounding may add.
-REAL links_near()
+// Effective distance of a node's ball, in the ray's parameter, less what float and rounding may add.
+REAL links_near(uvec4 link)
 {
-    if (links_past == NO_NODE) return FAR_AWAY;
-    uvec4 link = list_node(links_past);
     return NUM(stream_distance(uintBitsToFloat(link.z), uintBitsToFloat(link.w), float(ball_get(link.x).radius)));
 }
 
@@ -73,6 +71,8 @@ uint active_ball(Place place)
 
 Place links_here;    // the place that links_next has come to
 uint links_node;     // and the node after it
+bool links_live;     // its chord reaches on
+bool links_cut = false;
 bool links_leading;  // all before it has ended
 REAL links_end;      // the next place, of those come to, at which a chord begins or ends
 int links_size = -1; // places that the last round went over; -1 before the first
@@ -86,27 +86,31 @@ void links_begin(REAL s)
     links_size = 0;
 }
 
-// The next place of the stretch whose chord reaches beyond s; the list is read on to all that may begin before links_end or `ahead`.
-// False: there is none. What has ended at the head of the stretch is let go.
+// Comes to the next place of the stretch; links_live tells whether its chord reaches beyond s. The list is read on to all that may
+// begin before links_end or `ahead`. False: there is none, or (links_cut) all so far has ended and was enough for a dispatch. What has
+// ended at the head of the stretch is let go.
 bool links_next(REAL s, REAL ahead)
 {
-    for (;;) {
-        if (links_node == links_past) {
-            REAL near = links_near();
-            if (links_past == NO_NODE || (near > links_end && near > ahead)) return false;
-            links_past = list_node(links_past).y;
-        }
-        links_here = links_at(links_node);
-        links_node = links_here.link.y;
-        links_size++;
-        if (links_here.holds && links_here.chord.b > s) {
-            Chord chord = links_here.chord;
-            links_leading = false;
-            links_end = min(links_end, chord.a > s ? chord.a : chord.b);
-            return true;
-        }
-        if (links_leading) links_first = links_node;
+    links_cut = links_leading && links_work > WALK_BUDGET;
+    if (links_cut) return false;
+    if (links_node == links_past) {
+        if (links_past == NO_NODE) return false;
+        uvec4 link = list_node(links_past);
+        REAL near = links_near(link);
+        if (near > links_end && near > ahead) return false;
+        links_past = link.y;
     }
+    links_here = links_at(links_node);
+    links_node = links_here.link.y;
+    links_size++;
+    links_live = links_here.holds && links_here.chord.b > s;
+    if (links_live) {
+        links_leading = false;
+        links_end = min(links_end, links_here.chord.a > s ? links_here.chord.a : links_here.chord.b);
+    } else if (links_leading) {
+        links_first = links_node;
+    }
+    return true;
 }
 
 // From s on: the next place at which a chord begins or ends, all balls read that may begin before. FAR_AWAY: there is none.
@@ -118,7 +122,15 @@ REAL links_stop(REAL s)
     return links_end;
 }
 
-const int LINKS_FEW = 48;
+const int LINKS_FEW = 48;   // more make a crowd,
+const int LINKS_MANY = 500; // and more than these are gone over only where a dispatch begins
+
+// A long round in the midst of a dispatch? There eight lanes could each begin theirs at another time, and the driver counts the
+// rounds of all of them (loops.glsl).
+bool links_wait(int before)
+{
+    return before > 2 * LINKS_FEW && links_size > LINKS_MANY;
+}
 
 // Whether so many balls lie between the first that reaches on and s that a round over them is long.
 bool links_crowded(REAL s)
@@ -128,6 +140,5 @@ bool links_crowded(REAL s)
     for (int i = 0; i < LINKS_FEW && node != NO_NODE; i++) node = list_node(node).y;
     links_work += LINKS_FEW;
     if (node == NO_NODE) return false;
-    uvec4 link = list_node(node);
-    return NUM(stream_distance(uintBitsToFloat(link.z), uintBitsToFloat(link.w), float(ball_get(link.x).radius))) <= s;
+    return links_near(list_node(node)) <= s;
 }

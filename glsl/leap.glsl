@@ -18,23 +18,29 @@ void leap_begin()
     for (int k = 0; k < LEAPS; k++) leap_sum[k] = leap_size[k] = leap_margin[k] = NUM(0.0);
 }
 
-// Adds a ball to the stretches [s, s + h], [s, s + h/4], ... that it reaches into.
-void leap_take(Chord chord, REAL s, REAL h, REAL side)
+// Adds a ball to the stretch [s, to]; nothing where it does not reach into it.
+void leap_add(Chord chord, REAL s, REAL to, bool high, inout REAL sum, inout REAL size, inout REAL margin)
 {
     REAL middle = NUM(0.5) * (chord.a + chord.b);
-    for (int k = 0; k < LEAPS; k++) {
-        REAL to = s + h;
-        if (chord.a >= to) return;
-        REAL near = clamp(middle, s, to);
-        REAL far = abs(s - middle) > abs(to - middle) ? s : to;
-        REAL most = clamp((near - chord.a) * (chord.b - near) * chord.shrink, NUM(0.0), NUM(1.0));
-        REAL least = clamp((far - chord.a) * (chord.b - far) * chord.shrink, NUM(0.0), NUM(1.0));
-        bool high = (chord.strength > NUM(0.0)) == (side < NUM(0.0));
-        leap_sum[k] += chord.strength * density_value(KERNEL, NUM(1.0) - (high ? most : least));
-        leap_size[k] += abs(chord.strength) * density_value(KERNEL, NUM(1.0) - most);
-        leap_margin[k] += abs(chord.strength) * density_slope_bound(KERNEL, most) * chord_reach(chord, to);
-        h *= NUM(0.25);
-    }
+    REAL near = clamp(middle, s, to);
+    REAL far = abs(s - middle) > abs(to - middle) ? s : to;
+    REAL most = clamp((near - chord.a) * (chord.b - near) * chord.shrink, NUM(0.0), NUM(1.0));
+    REAL least = clamp((far - chord.a) * (chord.b - far) * chord.shrink, NUM(0.0), NUM(1.0));
+    sum += chord.strength * density_value(KERNEL, NUM(1.0) - (high ? most : least));
+    size += abs(chord.strength) * density_value(KERNEL, NUM(1.0) - most);
+    margin += abs(chord.strength) * density_slope_bound(KERNEL, most) * chord_reach(chord, to);
+}
+
+// Adds it to [s, s + h], [s, s + h/4], ... A loop would cost a driver's count of rounds (loops.glsl) six for each ball.
+void leap_take(Chord chord, REAL s, REAL h, REAL side)
+{
+    bool high = (chord.strength > NUM(0.0)) == (side < NUM(0.0));
+    leap_add(chord, s, s + h, high, leap_sum[0], leap_size[0], leap_margin[0]);
+    leap_add(chord, s, s + NUM(0.25) * h, high, leap_sum[1], leap_size[1], leap_margin[1]);
+    leap_add(chord, s, s + NUM(0.0625) * h, high, leap_sum[2], leap_size[2], leap_margin[2]);
+    leap_add(chord, s, s + NUM(0.015625) * h, high, leap_sum[3], leap_size[3], leap_margin[3]);
+    leap_add(chord, s, s + NUM(0.00390625) * h, high, leap_sum[4], leap_size[4], leap_margin[4]);
+    leap_add(chord, s, s + NUM(0.0009765625) * h, high, leap_sum[5], leap_size[5], leap_margin[5]);
 }
 
 // How far from s on f surely stays on its side of L: s where nothing is proven. Then `stop` is the end of a piece to be searched,
@@ -46,6 +52,7 @@ REAL leap_clear(REAL s, REAL side, out REAL stop)
     leap_begin();
     links_begin(s);
     while (links_next(s, s + h)) {
+        if (!links_live) continue;
         leap_take(links_here.chord, s, h, side);
         count += NUM(1.0);
     }

@@ -51,14 +51,17 @@ int resolve_walk(REAL limit, inout REAL s)
 {
     while (links_work < WALK_BUDGET) {
         REAL stop;
-        if (links_crowded(s)) {
-            REAL clear = leap_clear(s, SIDE, stop);
-            if (clear > s) {
-                s = clear;
-                continue;
-            }
-        } else {
+        bool crowded = links_crowded(s);
+        if (links_wait(links_work)) break;
+        REAL clear = s;
+        if (crowded)
+            clear = leap_clear(s, SIDE, stop);
+        else
             stop = links_stop(s);
+        if (links_cut) break;
+        if (clear > s) {
+            s = clear;
+            continue;
         }
         if (stop == FAR_AWAY || s >= limit) return PIECE_NONE;
         piece_begin();

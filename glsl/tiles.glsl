@@ -28,10 +28,9 @@ uint list_head(ivec2 pixel)
     return tile_head(tile.y * tile_grid.z + tile.x);
 }
 
-// Balls that the ray misses which one look may pass over; none where rounds of loops are counted.
-#ifdef RESOLVE_STEPS
-const int TILE_SKIP = 0;
-#else
+// Balls that the ray misses which one look may pass over; none where rounds of loops are counted: there even a loop of no rounds is
+// one.
+#ifndef RESOLVE_STEPS
 const int TILE_SKIP = 62;
 #endif
 
@@ -48,10 +47,12 @@ uvec4 list_node(uint node)
 {
     uint entry = tile_entry(node);
     Ball ball = ball_get(entry & 0x7fffffffu);
+#ifndef RESOLVE_STEPS
     for (int skipped = 0; skipped < TILE_SKIP && entry < 0x80000000u && tile_misses(ball); skipped++) {
         entry = tile_entry(++node);
         ball = ball_get(entry & 0x7fffffffu);
     }
+#endif
     REAL2 ends;
     bool meets = chord_ends(ball.centre - list_ray.start, ball.radius, list_ray.way, NUM(0.0), ends);
     vec2 chord = vec2(ends);
