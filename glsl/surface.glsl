@@ -30,6 +30,8 @@ REAL3 surface_from(REAL t, REAL middle, REAL3 way, REAL3 offset, REAL shrink)
     return from;
 }
 
+Surface surface_none() { return Surface(NUM(0.0), NUM(0.0), NUM(0.0), REAL3(0.0), vec4(0.0)); }
+
 Surface surface_at(Ray ray, REAL t)
 {
     REAL value = -level.x;
