@@ -1,6 +1,7 @@
 #include "app/stats_json.h"
 
 #include "app/app.h"
+#include "base/json.h"
 
 #include <errno.h>
 #include <math.h>
@@ -9,27 +10,16 @@
 #include <string.h>
 #include <unistd.h>
 
-/* JSON has no infinities. */
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
-static json_t *count(uint64_t value)
-{
-    return json_integer((json_int_t)value);
-}
-
 /* Milliseconds a phase in the order of their names in the design, "load" first and "total" last. */
 static json_t *milliseconds(const double ms[MNS_PHASE_COUNT], double total, const stats_frame *frame)
 {
     json_t *object = json_object();
-    json_object_set_new(object, "load", number(frame->load_ms));
+    json_object_set_new(object, "load", json_number(frame->load_ms));
     for (int phase = 0; phase < MNS_PHASE_COUNT; phase++)
         json_object_set_new(object, mns_phase_name((mns_phase)phase),
-                            number(phase == MNS_PHASE_READBACK ? frame->readback_ms : ms[phase]));
-    json_object_set_new(object, "encode", number(frame->encode_ms));
-    json_object_set_new(object, "total", number(total));
+                            json_number(phase == MNS_PHASE_READBACK ? frame->readback_ms : ms[phase]));
+    json_object_set_new(object, "encode", json_number(frame->encode_ms));
+    json_object_set_new(object, "total", json_number(total));
     return object;
 }
 
@@ -68,29 +58,29 @@ static json_t *counts(const stats_frame *frame)
 {
     const mns_stats *s = frame->stats;
     json_t *object = json_object();
-    json_object_set_new(object, "balls", count(s->balls));
-    json_object_set_new(object, "balls_in_view", count(s->balls_in_view));
-    json_object_set_new(object, "pixels", count((uint64_t)s->width * (uint64_t)s->height));
-    json_object_set_new(object, "pixels_hit", count(s->pixels_hit));
-    json_object_set_new(object, "pixels_undecided", count(s->pixels_undecided));
-    json_object_set_new(object, "list_nodes", count(s->list_nodes));
-    json_object_set_new(object, "tiles", count(s->tiles));
-    json_object_set_new(object, "passes", count(s->passes));
-    json_object_set_new(object, "programs", count(s->programs));
-    json_object_set_new(object, "buffers", count(s->buffers));
-    json_object_set_new(object, "driver_messages", count(frame->messages));
+    json_object_set_new(object, "balls", json_count(s->balls));
+    json_object_set_new(object, "balls_in_view", json_count(s->balls_in_view));
+    json_object_set_new(object, "pixels", json_count((uint64_t)s->width * (uint64_t)s->height));
+    json_object_set_new(object, "pixels_hit", json_count(s->pixels_hit));
+    json_object_set_new(object, "pixels_undecided", json_count(s->pixels_undecided));
+    json_object_set_new(object, "list_nodes", json_count(s->list_nodes));
+    json_object_set_new(object, "tiles", json_count(s->tiles));
+    json_object_set_new(object, "passes", json_count(s->passes));
+    json_object_set_new(object, "programs", json_count(s->programs));
+    json_object_set_new(object, "buffers", json_count(s->buffers));
+    json_object_set_new(object, "driver_messages", json_count(frame->messages));
     return object;
 }
 
 static json_t *fallbacks(const mns_stats *s)
 {
     json_t *object = json_object();
-    json_object_set_new(object, "pool_grown", count(s->fallbacks.pool_grown));
-    json_object_set_new(object, "tiled", count(s->fallbacks.tiled));
-    json_object_set_new(object, "lists_sorted", count(s->fallbacks.lists_sorted));
-    json_object_set_new(object, "active_overflow", count(s->fallbacks.active_overflow));
-    json_object_set_new(object, "root_cap", count(s->fallbacks.root_cap));
-    json_object_set_new(object, "undecided_float", count(s->fallbacks.undecided_float));
+    json_object_set_new(object, "pool_grown", json_count(s->fallbacks.pool_grown));
+    json_object_set_new(object, "tiled", json_count(s->fallbacks.tiled));
+    json_object_set_new(object, "lists_sorted", json_count(s->fallbacks.lists_sorted));
+    json_object_set_new(object, "active_overflow", json_count(s->fallbacks.active_overflow));
+    json_object_set_new(object, "root_cap", json_count(s->fallbacks.root_cap));
+    json_object_set_new(object, "undecided_float", json_count(s->fallbacks.undecided_float));
     return object;
 }
 
@@ -133,21 +123,19 @@ static json_t *work(const mns_stats *s)
     static const char *const names[MNS_WORK_COUNT] = {"nodes", "leaves", "balls", "rounds"};
     if (!s->counted) return json_null();
     json_t *object = json_object();
-    for (int i = 0; i < MNS_WORK_COUNT; i++) json_object_set_new(object, names[i], number(s->work[i]));
+    for (int i = 0; i < MNS_WORK_COUNT; i++) json_object_set_new(object, names[i], json_number(s->work[i]));
     return object;
 }
 
-/* The legend of the colour map; null where the surface has one colour. The name may come from a file in any
- * encoding. */
+/* The legend of the colour map; null where the surface has one colour. */
 static json_t *legend(const mns_stats *s)
 {
     if (!s->color_by || !*s->color_by) return json_null();
     json_t *object = json_object(), *range = json_array();
-    json_t *name = json_string(s->color_by);
-    json_object_set_new(object, "by", name ? name : json_string_nocheck("?"));
+    json_object_set_new(object, "by", json_text(s->color_by));
     json_object_set_new(object, "map", json_string(s->color_map));
-    json_array_append_new(range, number(s->color_range[0]));
-    json_array_append_new(range, number(s->color_range[1]));
+    json_array_append_new(range, json_number(s->color_range[0]));
+    json_array_append_new(range, json_number(s->color_range[1]));
     json_object_set_new(object, "range", range);
     return object;
 }
@@ -180,8 +168,8 @@ json_t *stats_json_frame(const stats_frame *frame)
     if (frame->runs) json_object_set_new(object, "repeat", repeats(frame));
     json_object_set_new(object, "counts", counts(frame));
     json_object_set_new(object, "lists",
-                        json_pack("{s:o, s:o, s:o}", "mean", number(s->list_mean), "p99", number(s->list_p99),
-                                  "max", count(s->list_max)));
+                        json_pack("{s:o, s:o, s:o}", "mean", json_number(s->list_mean), "p99",
+                                  json_number(s->list_p99), "max", json_count(s->list_max)));
     json_object_set_new(object, "memory", json_pack("{s:I}", "peak_rss_bytes", peak_memory()));
     json_object_set_new(object, "left_out", left_out(frame->plan));
     json_object_set_new(object, "warnings", warnings(frame->plan));

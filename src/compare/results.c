@@ -1,42 +1,17 @@
 #include "compare/results.h"
 
+#include "base/json.h"
 #include "base/memory.h"
 #include "base/status.h"
 #include "commit.h" /* made by the build */
 #include "compare/machine.h"
 
 #include <errno.h>
-#include <math.h>
 #include <string.h>
 #include <time.h>
 
 /* ---- Values
  * -------------------------------------------------------------------------------------------------------- */
-
-/* JSON has no infinities and no NaN. */
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
-static json_t *count_of(size_t value)
-{
-    return json_integer((json_int_t)value);
-}
-
-/* Text from outside may be in any encoding. */
-static json_t *text_of(const char *text)
-{
-    if (!text) return json_null();
-    json_t *value = json_string(text);
-    if (value) return value;
-    char *plain = strdup(text);
-    for (char *c = plain; c && *c; c++)
-        if ((unsigned char)*c >= 0x80) *c = '?';
-    value = plain ? json_string(plain) : NULL;
-    free(plain);
-    return value;
-}
 
 static json_t *point(const double v[3])
 {
@@ -49,8 +24,9 @@ static json_t *point(const double v[3])
 
 static json_t *spread(const metrics_spread *s)
 {
-    return json_pack("{s:o, s:o, s:o, s:o, s:o}", "median", number(s->median), "p99", number(s->p99), "p999",
-                     number(s->p999), "max", number(s->max), "rms", number(s->rms));
+    return json_pack("{s:o, s:o, s:o, s:o, s:o}", "median", json_number(s->median), "p99",
+                     json_number(s->p99), "p999", json_number(s->p999), "max", json_number(s->max), "rms",
+                     json_number(s->rms));
 }
 
 /* The phases that the whole is made of: shading and reading back are not in it. */
@@ -58,28 +34,28 @@ static json_t *times(const run_times *ms)
 {
     json_t *phases = json_object();
     for (int p = 0; p < MNS_PHASE_SHADE && ms->has_phases; p++)
-        json_object_set_new(phases, mns_phase_name((mns_phase)p), number(ms->phase[p]));
-    return json_pack("{s:o, s:o, s:o, s:o}", "median", number(ms->median), "min", number(ms->min), "max",
-                     number(ms->max), "phases", phases);
+        json_object_set_new(phases, mns_phase_name((mns_phase)p), json_number(ms->phase[p]));
+    return json_pack("{s:o, s:o, s:o, s:o}", "median", json_number(ms->median), "min", json_number(ms->min),
+                     "max", json_number(ms->max), "phases", phases);
 }
 
 static json_t *errors(const metrics *m)
 {
     json_t *object = json_object();
-    json_object_set_new(object, "pixels", count_of(m->pixels));
-    json_object_set_new(object, "hits", count_of(m->hits));
-    json_object_set_new(object, "missed", count_of(m->missed));
-    json_object_set_new(object, "invented", count_of(m->invented));
-    json_object_set_new(object, "missed_decided", count_of(m->missed_decided));
-    json_object_set_new(object, "invented_decided", count_of(m->invented_decided));
-    json_object_set_new(object, "wrong_root", count_of(m->wrong_root));
-    json_object_set_new(object, "undecided", count_of(m->undecided));
-    json_object_set_new(object, "compared", count_of(m->compared));
+    json_object_set_new(object, "pixels", json_count(m->pixels));
+    json_object_set_new(object, "hits", json_count(m->hits));
+    json_object_set_new(object, "missed", json_count(m->missed));
+    json_object_set_new(object, "invented", json_count(m->invented));
+    json_object_set_new(object, "missed_decided", json_count(m->missed_decided));
+    json_object_set_new(object, "invented_decided", json_count(m->invented_decided));
+    json_object_set_new(object, "wrong_root", json_count(m->wrong_root));
+    json_object_set_new(object, "undecided", json_count(m->undecided));
+    json_object_set_new(object, "compared", json_count(m->compared));
     json_object_set_new(object, "t", spread(&m->t));
     json_object_set_new(object, "footprint", spread(&m->footprint));
     json_object_set_new(object, "residual", spread(&m->residual));
     json_object_set_new(object, "normal", spread(&m->normal));
-    json_object_set_new(object, "psnr", number(m->psnr));
+    json_object_set_new(object, "psnr", json_number(m->psnr));
     return object;
 }
 
@@ -89,8 +65,8 @@ static json_t *worst(const metrics *m)
     for (size_t i = 0; i < m->worst_count; i++) {
         const metrics_pixel *p = &m->worst[i];
         json_array_append_new(list, json_pack("{s:i, s:i, s:s, s:o, s:o, s:o}", "x", p->x, "y", p->y, "kind",
-                                              metrics_kind_name(p->kind), "t", number(p->t), "truth",
-                                              number(p->truth), "error", number(p->error)));
+                                              metrics_kind_name(p->kind), "t", json_number(p->t), "truth",
+                                              json_number(p->truth), "error", json_number(p->error)));
     }
     return list;
 }
@@ -102,9 +78,9 @@ json_t *results_run(const run_result *run)
     json_t *settings = json_object();
     for (size_t i = 0; i < spec->setting_count; i++)
         json_object_set_new(settings, spec->setting[i].key, json_string(spec->setting[i].value));
-    return json_pack("{s:o, s:s, s:s, s:o, s:i, s:o, s:o, s:o, s:b, s:o}", "name", text_of(spec->name),
+    return json_pack("{s:o, s:s, s:s, s:o, s:i, s:o, s:o, s:o, s:b, s:o}", "name", json_text(spec->name),
                      "method", spec->method, "solver", spec->solver, "settings", settings, "frames",
-                     run->ms.frames, "failed", failed ? text_of(run->error.text) : json_null(), "ms",
+                     run->ms.frames, "failed", failed ? json_text(run->error.text) : json_null(), "ms",
                      failed ? json_null() : times(&run->ms), "errors",
                      failed ? json_null() : errors(&run->errors), "pareto", (int)run->pareto, "worst",
                      failed ? json_array() : worst(&run->errors));
@@ -120,8 +96,8 @@ static json_t *input(const results_about *about)
     char hash[TRUTH_HASH_SIZE];
     mns_field_get_info(about->field, &info);
     truth_hash_field(about->field, hash);
-    return json_pack("{s:o, s:o, s:s, s:f, s:s}", "name", text_of(about->input), "count",
-                     count_of(info.count), "kernel", mns_kernel_name(info.kernel), "iso", info.iso, "hash",
+    return json_pack("{s:o, s:o, s:s, s:f, s:s}", "name", json_text(about->input), "count",
+                     json_count(info.count), "kernel", mns_kernel_name(info.kernel), "iso", info.iso, "hash",
                      hash);
 }
 
@@ -135,8 +111,8 @@ static json_t *view(const mns_view *v)
 static json_t *truth_figures(const truth_planes *t)
 {
     if (!t) return json_null();
-    return json_pack("{s:o, s:o, s:o, s:b}", "ms", number(t->ms), "hits", count_of(t->hits), "undecided",
-                     count_of(t->undecided), "cached", (int)t->cached);
+    return json_pack("{s:o, s:o, s:o, s:b}", "ms", json_number(t->ms), "hits", json_count(t->hits),
+                     "undecided", json_count(t->undecided), "cached", (int)t->cached);
 }
 
 static json_t *now(void)
@@ -157,9 +133,9 @@ mns_status results_document(const results_about *about, const run_result *runs, 
     bool whole = json_array_size(list) == count;
     json_t *made =
         json_pack("{s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:n}", "schema", 1, "command",
-                  text_of(about->command), "created", now(), "machine", machine_describe(), "renderer",
-                  text_of(about->renderer), "backend", text_of(about->backend), "version",
-                  text_of(mns_version()), "commit", MNS_COMMIT, "input", input(about), "view",
+                  json_text(about->command), "created", now(), "machine", machine_describe(), "renderer",
+                  json_text(about->renderer), "backend", json_text(about->backend), "version",
+                  json_text(mns_version()), "commit", MNS_COMMIT, "input", input(about), "view",
                   view(about->view), "truth", truth_figures(about->truth), "runs", list, "suite");
     if (!made || !whole) {
         json_decref(made);

@@ -1,5 +1,6 @@
 #include "compare/suite.h"
 
+#include "base/json.h"
 #include "base/status.h"
 #include "compare/results.h"
 
@@ -47,16 +48,6 @@ void suite_judge(const stiff_case *which, const run_result *run, suite_line *lin
 /* ---- As JSON
  * ------------------------------------------------------------------------------------------------------- */
 
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
-static json_t *count_of(size_t value)
-{
-    return json_integer((json_int_t)value);
-}
-
 static json_t *line_json(const suite_line *line)
 {
     const run_result *run = line->run;
@@ -64,13 +55,13 @@ static json_t *line_json(const suite_line *line)
     bool failed = run->status != MNS_OK;
     json_t *object = results_run(run);
     json_object_set_new(object, "verdict", json_string(suite_verdict_name(line->verdict)));
-    json_object_set_new(object, "ms", failed ? json_null() : number(run->ms.median));
-    json_object_set_new(object, "missed", count_of(m->missed_decided));
-    json_object_set_new(object, "invented", count_of(m->invented_decided));
-    json_object_set_new(object, "wrong_root", count_of(m->wrong_root));
-    json_object_set_new(object, "undecided", count_of(m->undecided));
-    json_object_set_new(object, "pixels", count_of(m->pixels));
-    json_object_set_new(object, "t_p999", failed ? json_null() : number(m->t.p999));
+    json_object_set_new(object, "ms", failed ? json_null() : json_number(run->ms.median));
+    json_object_set_new(object, "missed", json_count(m->missed_decided));
+    json_object_set_new(object, "invented", json_count(m->invented_decided));
+    json_object_set_new(object, "wrong_root", json_count(m->wrong_root));
+    json_object_set_new(object, "undecided", json_count(m->undecided));
+    json_object_set_new(object, "pixels", json_count(m->pixels));
+    json_object_set_new(object, "t_p999", failed ? json_null() : json_number(m->t.p999));
     json_t *note = json_string(line->note);
     json_object_set_new(object, "note", note ? note : json_string("refused"));
     return object;
