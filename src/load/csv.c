@@ -3,7 +3,7 @@
  * comments. */
 #include "load/format.h"
 #include "load/number.h"
-#include "load/table.h"
+#include "load/rows.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -134,10 +134,8 @@ static bool read_rows(load_table *t, load_stream *s)
         return false;
     }
     guess_roles(t, line);
-    do {
-        if (!table_add_row(t, s, line)) return false;
-    } while (next_row(s, &line));
-    return !s->status;
+    uint64_t lines;
+    return table_add_row(t, s, line) && rows_add(t, s, UINT64_MAX, is_passed_over, &lines);
 }
 
 static mns_status csv_read(load_stream *s, particles *p)

@@ -5,7 +5,7 @@
 #include "load/cell.h"
 #include "load/format.h"
 #include "load/number.h"
-#include "load/table.h"
+#include "load/rows.h"
 
 #include <string.h>
 
@@ -139,6 +139,21 @@ static bool read_headings(load_stream *s, lammps_box *box, uint64_t *atoms, load
     return has_count;
 }
 
+static bool read_atoms(load_table *t, load_stream *s, uint64_t atoms)
+{
+    uint64_t rest = 0;
+    load_text line;
+    bool has_first = atoms && stream_line(s, &line);
+    if (has_first) {
+        lammps_guess_roles(t, line);
+        if (!table_add_row(t, s, line) || !rows_add(t, s, atoms - 1, NULL, &rest)) return false;
+    }
+    if (s->status || has_first + rest == atoms) return !s->status;
+    stream_fail_line(s, "the file ends after %llu atoms of %llu", (unsigned long long)(has_first + rest),
+                     (unsigned long long)atoms);
+    return false;
+}
+
 static mns_status lammps_read(load_stream *s, particles *p)
 {
     load_table table = {.separator = ' '};
@@ -153,15 +168,7 @@ static mns_status lammps_read(load_stream *s, particles *p)
         stream_fail_line(s, "scaled positions without a box; expected ITEM: BOX BOUNDS before");
         goto fail;
     }
-    for (uint64_t i = 0; i < atoms; i++) {
-        if (!stream_line(s, &line)) {
-            stream_fail_line(s, "the file ends after %llu atoms of %llu", (unsigned long long)i,
-                             (unsigned long long)atoms);
-            goto fail;
-        }
-        if (i == 0) lammps_guess_roles(&table, line);
-        if (!table_add_row(&table, s, line)) goto fail;
-    }
+    if (!read_atoms(&table, s, atoms)) goto fail;
     if (!lammps_settle(&table, s, &columns, &box)) goto fail;
     if (box.is_known) cell_set(p, box.origin, (const double(*)[3])box.edge);
     return table_finish(&table, s, p);

@@ -119,8 +119,11 @@ static bool sort_rows(load_table *t, load_stream *s, size_t id_column)
     double *moved = memory_array(t->row_count, sizeof *moved);
     bool is_done = order && moved && order_rows(id, t->row_count, order);
     for (size_t c = 0; is_done && c < t->column_count; c++) {
-        for (size_t i = 0; i < t->row_count; i++) moved[i] = t->column[c].value[order[i]];
-        memcpy(t->column[c].value, moved, t->row_count * sizeof *moved);
+        double *value = t->column[c].value;
+#pragma omp parallel for
+        for (size_t i = 0; i < t->row_count; i++) moved[i] = value[order[i]];
+        t->column[c].value = moved; /* and the old array is where the next goes */
+        moved = value;
     }
     free(order);
     free(moved);

@@ -48,13 +48,14 @@ static double round_wide(wide value, bool sticky, int power)
 
 static double exact_wide(uint64_t digits, long exponent)
 {
-    uint64_t five = 1;
-    for (long i = exponent < 0 ? -exponent : exponent; i > 0; i--) five *= 5;
+    static const uint64_t five_8 = 390625, eights[] = {1, five_8, five_8 * five_8, five_8 * five_8 * five_8};
+    uint64_t power = (uint64_t)(exponent < 0 ? -exponent : exponent), five = eights[power / 8];
+    for (power %= 8; power > 0; power--) five *= 5;
     if (exponent >= 0) return round_wide((wide)digits * five, false, (int)exponent);
     int lead = __builtin_clzll(digits);
     wide numerator = (wide)(digits << lead) << 64; /* over 5^27 this still has more than 64 bits */
     wide quotient = numerator / five;
-    return round_wide(quotient, numerator % five != 0, (int)exponent - 64 - lead);
+    return round_wide(quotient, quotient * five != numerator, (int)exponent - 64 - lead);
 }
 
 /* The library's own conversion of a text that is known to be a number. */
@@ -89,11 +90,30 @@ static double convert(const decimal *d, const char *at, const char *end)
     return slow_number(at, end);
 }
 
-/* Digits at `c`; gives where they end. */
-static const char *scan_digits(const char *c, const char *end, decimal *d, bool is_fraction)
+static bool is_digit(char c)
 {
-    for (; c < end && *c >= '0' && *c <= '9'; c++) take_digit(d, *c - '0', is_fraction);
+    return (unsigned char)(c - '0') < 10;
+}
+
+/* Digits at `c`, gathered where they fit 64 bits whatever they are; gives where they end. */
+static const char *scan_digits(const char *c, const char *end, uint64_t *digits)
+{
+    uint64_t value = *digits;
+    for (; c < end && is_digit(*c); c++) value = value * 10 + (unsigned)(*c - '0');
+    *digits = value;
     return c;
+}
+
+/* The same digit by digit, for what does not fit. */
+static void take_digits(const char *c, const char *end, decimal *d)
+{
+    bool is_fraction = false;
+    *d = (decimal){0};
+    for (; c < end; c++)
+        if (*c == '.')
+            is_fraction = true;
+        else
+            take_digit(d, *c - '0', is_fraction);
 }
 
 /* An exponent at `c`, or nothing where no digits follow its letter. */
@@ -103,9 +123,9 @@ static const char *scan_exponent(const char *c, const char *end, decimal *d)
     const char *digit = c + 1;
     bool is_negative = digit < end && *digit == '-';
     if (digit < end && (*digit == '-' || *digit == '+')) digit++;
-    if (digit == end || *digit < '0' || *digit > '9') return c;
+    if (digit == end || !is_digit(*digit)) return c;
     long exponent = 0;
-    for (; digit < end && *digit >= '0' && *digit <= '9'; digit++)
+    for (; digit < end && is_digit(*digit); digit++)
         if (exponent < 1000000) exponent = exponent * 10 + (*digit - '0');
     d->exponent += is_negative ? -exponent : exponent;
     return digit;
@@ -117,14 +137,16 @@ bool number_scan(const char **at, const char *end, double *value)
     bool is_negative = c < end && *c == '-';
     if (c < end && (*c == '-' || *c == '+')) c++;
     decimal d = {0};
-    const char *first = c, *whole = scan_digits(c, end, &d, false);
+    const char *first = c, *whole = scan_digits(c, end, &d.digits);
     c = whole;
     if (c < end && *c == '.') {
-        c = scan_digits(whole + 1, end, &d, true);
+        c = scan_digits(whole + 1, end, &d.digits);
         if (c == whole + 1 && whole == first) return false; /* a point alone */
+        d.exponent = (long)(whole + 1 - c);
     } else if (c == first) {
         return false;
     }
+    if (c - first > 19) take_digits(first, c, &d); /* the point is one of them */
     c = scan_exponent(c, end, &d);
     double magnitude = convert(&d, first, c);
     *value = is_negative ? -magnitude : magnitude;

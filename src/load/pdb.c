@@ -132,7 +132,7 @@ static bool read_atom(load_table *t, load_stream *s, load_text line)
     }
     const char *element = element_of_pdb(cut(line, 77, 78), cut(line, 13, 16));
     double radius = element_radius(text_of(element));
-    if (!table_reserve(t, s)) return false;
+    if (!table_reserve(t, s, 1)) return false;
     t->column[RADIUS].value[t->row_count] = radius > 0 ? radius : ELEMENT_UNKNOWN_RADIUS;
     /* A residue number past 9999 is written in letters by some programs; it is for colour only. */
     load_text number = cut_word(line, 23, 26);

@@ -11,8 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The longest line; a power of ten, since messages name it. */
-enum { BUFFER_SIZE = 1000000 };
+/* The longest line; a power of ten, since messages name it. Large, so that all cores have work in it. */
+enum { BUFFER_SIZE = 10000000 };
 
 /* ---- Failures ---- */
 
@@ -168,37 +168,64 @@ load_text stream_peek(load_stream *s, size_t size)
     return (load_text){at, at + (left < size ? left : size)};
 }
 
-bool stream_line(load_stream *s, load_text *line)
+/* Has a whole line in the buffer, or what follows the last newline of the input. False at the end and on
+ * failure. */
+static bool fill_line(load_stream *s)
 {
     if (s->status) return false;
     size_t seen = 0;
-    char *end;
-    while (!(end = memchr(s->buffer + s->begin + seen, '\n', s->end - s->begin - seen))) {
+    while (!memchr(s->buffer + s->begin + seen, '\n', s->end - s->begin - seen)) {
         seen = s->end - s->begin;
         if (fill(s)) continue;
         if (s->status || !seen) return false;
-        if (!s->at_end) {
-            s->is_mid_line = true;
-            stream_fail_line(s, "the line is longer than %d bytes; expected a line for each particle",
-                             BUFFER_SIZE);
-            return false;
-        }
-        end = s->buffer + s->end; /* the last line, without its end */
-        break;
+        if (s->at_end) return true;
+        s->is_mid_line = true;
+        stream_fail_line(s, "the line is longer than %d bytes; expected a line for each particle",
+                         BUFFER_SIZE);
+        return false;
     }
-    line->at = s->buffer + s->begin;
-    s->begin = (size_t)(end - s->buffer) + (end < s->buffer + s->end);
-    line->end = end > line->at && end[-1] == '\r' ? end - 1 : end;
+    return true;
+}
+
+bool stream_line(load_stream *s, load_text *line)
+{
+    if (!fill_line(s)) return false;
+    load_text rest = {s->buffer + s->begin, s->buffer + s->end};
+    if (!text_next_line(&rest, line)) return false;
+    s->begin = (size_t)(rest.at - s->buffer);
     s->line++;
     s->is_mid_line = false;
     return true;
 }
 
+bool stream_peek_lines(load_stream *s, load_text *lines)
+{
+    if (!fill_line(s)) return false;
+    const char *at = s->buffer + s->begin, *last = memrchr(at, '\n', s->end - s->begin);
+    *lines = (load_text){at, last ? last + 1 : s->buffer + s->end};
+    return true;
+}
+
+void stream_pass(load_stream *s, const char *end)
+{
+    s->begin = (size_t)(end - s->buffer);
+    s->is_mid_line = false;
+}
+
 uint64_t stream_skip_lines(load_stream *s, uint64_t count)
 {
     uint64_t skipped = 0;
-    load_text line;
-    while (skipped < count && stream_line(s, &line)) skipped++;
+    load_text lines;
+    while (skipped < count && stream_peek_lines(s, &lines)) {
+        uint64_t there = text_count_lines(lines) + (lines.end[-1] != '\n');
+        if (there > count - skipped) {
+            there = count - skipped;
+            lines.end = text_skip_lines(lines, there);
+        }
+        stream_pass(s, lines.end);
+        s->line += there;
+        skipped += there;
+    }
     return skipped;
 }
 
@@ -256,6 +283,41 @@ bool stream_bytes(load_stream *s, void *to, size_t size)
         }
     }
     return !s->status;
+}
+
+/* ---- Lines in a text ---- */
+
+uint64_t text_count_lines(load_text text)
+{
+    uint64_t count = 0;
+    while (text.at < text.end) { /* in parts, whose counts the compiler can hold in bytes' lanes */
+        const char *end = text.end - text.at > 4096 ? text.at + 4096 : text.end;
+        uint32_t part = 0;
+        for (const char *c = text.at; c < end; c++) part += *c == '\n';
+        count += part;
+        text.at = end;
+    }
+    return count;
+}
+
+const char *text_skip_lines(load_text text, uint64_t count)
+{
+    for (; count && text.at < text.end; count--) {
+        const char *newline = memchr(text.at, '\n', (size_t)(text.end - text.at));
+        text.at = newline ? newline + 1 : text.end;
+    }
+    return text.at;
+}
+
+bool text_next_line(load_text *rest, load_text *line)
+{
+    if (rest->at == rest->end) return false;
+    const char *end = memchr(rest->at, '\n', (size_t)(rest->end - rest->at));
+    line->at = rest->at;
+    rest->at = end ? end + 1 : rest->end;
+    if (!end) end = rest->end;
+    line->end = end > line->at && end[-1] == '\r' ? end - 1 : end;
+    return true;
 }
 
 /* ---- Places ---- */

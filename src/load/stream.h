@@ -46,6 +46,11 @@ void stream_close(load_stream *s); /* zeroed is closed */
 bool stream_line(load_stream *s, load_text *line);
 /* Passes over `count` lines; gives how many there were. */
 uint64_t stream_skip_lines(load_stream *s, uint64_t count);
+/* What the buffer holds of whole lines that come next, at least one, and at the end of the input what follows
+ * the last newline; not passed over. False at the end and on failure. */
+bool stream_peek_lines(load_stream *s, load_text *lines);
+/* Passes over such lines up to `end`; `line` is for the caller to raise. */
+void stream_pass(load_stream *s, const char *end);
 /* The next run of bytes that are no white space, over lines. False at the end and on failure. */
 bool stream_token(load_stream *s, load_text *token);
 /* The next `size` bytes. False where there are fewer: that is a failure. */
@@ -67,6 +72,12 @@ mns_status stream_fail_byte(load_stream *s, const char *format, ...) __attribute
 mns_status stream_fail(load_stream *s, mns_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 mns_status stream_no_memory(load_stream *s);
+
+/* Newlines in a text; where the `count`-th line of it ends, with its newline; the next line of it, as
+ * stream_line gives it. */
+uint64_t text_count_lines(load_text text);
+const char *text_skip_lines(load_text text, uint64_t count);
+bool text_next_line(load_text *rest, load_text *line);
 
 /* For messages: at most 40 bytes of a text, as arguments of "%.*s". */
 #define SHOWN(text) ((text).end - (text).at > 40 ? 40 : (int)((text).end - (text).at)), (text).at

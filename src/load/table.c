@@ -30,10 +30,11 @@ bool table_add_column(load_table *t, load_stream *s, load_text name, load_role r
     return true;
 }
 
-bool table_reserve(load_table *t, load_stream *s)
+bool table_reserve(load_table *t, load_stream *s, size_t more)
 {
-    if (t->row_count < t->capacity) return true;
+    if (more <= t->capacity - t->row_count) return true;
     size_t capacity = t->capacity ? t->capacity * 2 : 256;
+    if (capacity < t->row_count + more) capacity = t->row_count + more;
     for (size_t i = 0; i < t->column_count; i++) {
         double *value = memory_resize(t->column[i].value, capacity, sizeof *value);
         if (!value) {
@@ -187,7 +188,7 @@ static bool fail_count(const load_table *t, load_stream *s, load_text line)
 
 bool table_add_row(load_table *t, load_stream *s, load_text line)
 {
-    if (!table_reserve(t, s)) return false;
+    if (!table_reserve(t, s, 1)) return false;
     load_text rest = line, field;
     for (size_t i = 0; i < t->column_count; i++) {
         load_role role = t->column[i].role;
@@ -253,7 +254,7 @@ static void hand_over(load_column *from, particles_column *to, size_t count)
 
 mns_status table_finish(load_table *t, load_stream *s, particles *p)
 {
-    if (!t->row_count && !table_reserve(t, s)) goto done; /* so that empty columns are arrays too */
+    if (!t->row_count && !table_reserve(t, s, 1)) goto done; /* so that empty columns are arrays too */
     p->column = calloc(t->column_count + 1, sizeof *p->column);
     if (!p->column) {
         stream_no_memory(s);

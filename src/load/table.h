@@ -38,8 +38,9 @@ typedef struct load_table {
 bool table_add_column(load_table *t, load_stream *s, load_text name, load_role role);
 /* Adds the row in a line. */
 bool table_add_row(load_table *t, load_stream *s, load_text line);
-/* Room for one more row: value[row_count] of each column may then be set, and row_count raised. */
-bool table_reserve(load_table *t, load_stream *s);
+/* Room for so many more rows: value[row_count] of each column and on may then be set, and row_count raised.
+ */
+bool table_reserve(load_table *t, load_stream *s, size_t more);
 /* Checks and puts one number into the next row; `shown` is what messages quote. */
 bool table_put(load_table *t, load_stream *s, size_t column, double value, load_text shown);
 

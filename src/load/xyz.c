@@ -4,7 +4,7 @@
 #include "load/cell.h"
 #include "load/format.h"
 #include "load/number.h"
-#include "load/table.h"
+#include "load/rows.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -156,18 +156,18 @@ static bool add_plain(load_table *t, load_stream *s, load_text row)
 
 static bool read_atoms(load_table *t, load_stream *s, uint64_t count)
 {
-    for (uint64_t i = 0; i < count; i++) {
-        load_text line;
-        if (!stream_line(s, &line)) {
-            stream_fail_line(s, "the file ends after %llu atoms of %llu", (unsigned long long)i,
-                             (unsigned long long)count);
-            return false;
-        }
+    uint64_t rest = 0;
+    load_text line;
+    if (!count) return t->column_count || add_plain(t, s, text_of("0 0 0"));
+    bool has_first = stream_line(s, &line);
+    if (has_first) {
         if (!t->column_count && !add_plain(t, s, line)) return false;
-        if (!table_add_row(t, s, line)) return false;
+        if (!table_add_row(t, s, line) || !rows_add(t, s, count - 1, NULL, &rest)) return false;
     }
-    if (!t->column_count) return add_plain(t, s, text_of("0 0 0")); /* no atoms */
-    return true;
+    if (s->status || has_first + rest == count) return !s->status;
+    stream_fail_line(s, "the file ends after %llu atoms of %llu", (unsigned long long)(has_first + rest),
+                     (unsigned long long)count);
+    return false;
 }
 
 static mns_status xyz_read(load_stream *s, particles *p)
