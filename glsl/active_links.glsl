@@ -142,3 +142,15 @@ bool links_crowded(REAL s)
     if (node == NO_NODE) return false;
     return links_near(list_node(node)) <= s;
 }
+
+// For leaps (leap.glsl).
+#define LEAP_EACH(s, to) links_begin(s); while (links_next(s, to)) if (links_live)
+#define LEAP_CHORD links_here.chord
+#define LEAP_STOP links_end
+
+const REAL LINKS_LEAP = NUM(0.5); // the longest, in radii of the first ball that reaches on
+
+REAL links_leap()
+{
+    return LINKS_LEAP * ball_get(list_node(links_first).x).radius;
+}

@@ -40,13 +40,42 @@ uint active_ball(Place place)
     return place.reference & REFERENCE_BALL;
 }
 
+REAL leaf_end = FAR_AWAY; // the next place, of those gone over, at which a chord begins or ends, at most where it was begun
+
+// Whether the place's chord reaches beyond s.
+bool leaf_reaches(Place place, REAL s)
+{
+    bool live = place.holds && place.chord.b > s;
+    if (live) leaf_end = min(leaf_end, place.chord.a > s ? place.chord.a : place.chord.b);
+    return live;
+}
+
+// For leaps (leap.glsl); leaf_end is set before to what is known of the ray.
+#define LEAP_EACH(s, to)                                                                                                          \
+    for (Place place = leaf_place(leaf_first); place.at < leaf_past; place = leaf_place(place.at + 1u))                            \
+        if (leaf_reaches(place, s))
+#define LEAP_CHORD place.chord
+#define LEAP_STOP leaf_end
+
 // From s on: the next place at which a chord begins or ends, at most `stop`.
 REAL leaf_stop(REAL s, REAL stop)
 {
-    for (uint at = leaf_first; at < leaf_past; at++) {
-        Place place = leaf_place(at);
-        if (!place.holds || place.chord.b <= s) continue;
-        stop = min(stop, place.chord.a > s ? place.chord.a : place.chord.b);
-    }
-    return stop;
+    leaf_end = stop;
+    for (Place place = leaf_place(leaf_first); place.at < leaf_past; place = leaf_place(place.at + 1u)) leaf_reaches(place, s);
+    return leaf_end;
+}
+
+const uint LEAF_FEW = 48u;   // more make a crowd,
+const uint LEAF_MANY = 500u; // and more than these are gone over only where a dispatch begins
+
+bool leaf_crowded()
+{
+    return leaf_past - leaf_first > LEAF_FEW;
+}
+
+// A long round in the midst of a dispatch? There eight lanes could each begin theirs at another time, and the driver counts the
+// rounds of all of them (loops.glsl).
+bool leaf_waits()
+{
+    return leaf_work > 2 * int(LEAF_FEW) && leaf_past - leaf_first > LEAF_MANY;
 }

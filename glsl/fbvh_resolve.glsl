@@ -15,6 +15,7 @@
 #include "loops.glsl"
 #include "side.glsl"
 #include "active_references.glsl"
+#include "leap.glsl"
 #include "exact.glsl"
 #include "surface.glsl"
 #include "planes.glsl"
@@ -61,37 +62,49 @@ REAL2 stretch_box(uint link)
     return REAL2(max(enter.x, max(enter.y, enter.z)), min(leave.x, min(leave.y, leave.z)));
 }
 
-// The stretch that is known first of what lies after s.
+// Looks at the reference at `at`: false past a leaf's own balls, which come first.
+bool stretch_own(uint at, REAL s, REAL2 box, Leaf leaf, inout Stretch next)
+{
+    Place place = leaf_place(at);
+    if (at == leaf.past || place.reference >= REFERENCE_SPLIT) return false;
+    if (place.holds) stretch_offer(s, max(box.x, place.chord.a), min(box.y, place.chord.b), leaf, next);
+    return true;
+}
+
+// The stretch that is known first of what lies after s. One loop for nodes and references, so that lanes which come to a crowd at
+// different times do not add their rounds up.
 Stretch stretch_after(REAL s, REAL limit)
 {
-    Stretch next;
-    next.begin = FAR_AWAY;
-    next.end = FAR_AWAY;
-    next.first = 0u;
-    next.past = 0u;
+    Stretch next = Stretch(FAR_AWAY, FAR_AWAY, 0u, 0u);
+    Leaf leaf = Leaf(0u, 0u, 0.0, 0.0);
+    REAL2 box = REAL2(0.0);
+    uint at = 0u;
+    bool within = false; // of a leaf, at its reference `at`
     tree_begin();
     while (tree_link != LINK_NONE) {
-        float to = float(min(next.begin, limit));
-        float from = float(s);
+        if (within) {
+            within = stretch_own(at, s, box, leaf, next);
+            at++;
+            if (!within) tree_next();
+            continue;
+        }
         leaf_work++;
         if (tree_inner()) {
+            float to = float(min(next.begin, limit));
+            float from = float(s);
             tree_step(from - 1.0e-6 * abs(from), to + 1.0e-6 * abs(to));
             continue;
         }
-        Leaf leaf = tree_leaf_at(tree_link, 0.0, float(FAR_AWAY));
-        REAL2 box = stretch_box(tree_link);
+        leaf = tree_leaf_at(tree_link, 0.0, float(FAR_AWAY));
+        box = stretch_box(tree_link);
         box.x = max(box.x, NUM(0.0));
 #ifdef OVERLAPS
-        for (uint at = leaf.first; at < leaf.past; at++) {
-            Place place = leaf_place(at);
-            if (place.reference >= REFERENCE_SPLIT) break; // own ones come first
-            if (place.holds)
-                stretch_offer(s, max(box.x, place.chord.a), min(box.y, place.chord.b), leaf, next);
-        }
+        at = leaf.first;
+        within = true;
 #else
         stretch_offer(s, box.x, box.y, leaf, next);
-#endif
         tree_next();
+#endif
     }
     return next;
 }
@@ -111,11 +124,48 @@ REAL resolve_past(REAL s, REAL side)
     return side * (level.x - value) - NUM(2.0) * TAU * margin;
 }
 
-// Walks on from s until there is a verdict, or too much work for one dispatch.
+const REAL RESOLVE_LEAP = NUM(16.0); // the longest leap tried, in lengths of the last step,
+const REAL RESOLVE_LEAST = NUM(0.0009765625); // or where none was clear, of the longest tried before
+
+// One step from s on within the stretch, a leap or a piece; `leap` is the longest to try, and then that of the next step. PIECE_NONE:
+// the surface is not passed before the new s.
+int resolve_step(Stretch stretch, REAL side, bool face, inout REAL leap, inout REAL s)
+{
+    REAL begin = s;
+    REAL stop;
+    active_from = s;
+    if (leaf_crowded()) {
+        leaf_end = stretch.end;
+        leap = min(leap, stretch.end - s);
+        s = leap_clear(s, leap, side, stop);
+    } else {
+        stop = leaf_stop(s, stretch.end);
+    }
+    if (s == begin) {
+        piece_begin();
+        EACH_ACTIVE(j) piece_take(active_chord(j), begin, stop);
+        if (piece_may(begin, stop, side)) {
+            int found = piece_solve(begin, stop, side, RESOLVE_SEARCH, s);
+            leaf_work += 64;
+            // A leaf entered on the far side of the surface: its face is the hit.
+            if (found == PIECE_OPEN && face && resolve_past(begin, side) > NUM(0.0)) {
+                s = begin;
+                return PIECE_HIT;
+            }
+            if (found != PIECE_NONE) return found;
+        }
+        s = stop;
+    }
+    leap = max(RESOLVE_LEAP * (s - begin), RESOLVE_LEAST * leap);
+    return PIECE_NONE;
+}
+
+// Walks on from s until there is a verdict, or too much work for one dispatch; one step is always taken.
 int resolve_walk(REAL limit, REAL side, inout REAL s)
 {
+    bool fresh = true;           // no step yet in this dispatch
     bool begun = s == RAY_BEGIN; // nothing has been walked: no face lies behind
-    while (leaf_work < WALK_BUDGET) {
+    while (fresh || leaf_work < WALK_BUDGET) {
         Stretch stretch = stretch_after(s, limit);
         bool gap = stretch.begin > s;
 #if defined(EYE_INSIDE) || defined(EYE_ON)
@@ -133,30 +183,14 @@ int resolve_walk(REAL limit, REAL side, inout REAL s)
         s = stretch.begin;
         leaf_first = stretch.first;
         leaf_past = stretch.past;
-        bool face = true;
-        while (s < stretch.end && leaf_work < WALK_BUDGET) {
-            REAL stop = leaf_stop(s, stretch.end);
-            active_from = s;
-            piece_begin();
-            EACH_ACTIVE(j) piece_take(active_chord(j), s, stop);
-            if (piece_may(s, stop, side)) {
-                REAL hit;
-                int found = piece_solve(s, stop, side, RESOLVE_SEARCH, hit);
-                leaf_work += 64;
-                // A leaf entered on the far side of the surface: its face is the hit.
-                if (found == PIECE_OPEN && face && !begun && resolve_past(s, side) > NUM(0.0)) {
-                    active_from = s;
-                    return PIECE_HIT;
-                }
-                if (found != PIECE_NONE) {
-                    s = hit;
-                    return found == PIECE_HIT && s > limit ? PIECE_NONE : found;
-                }
-            }
-            begun = false;
-            face = false;
-            if (!(stop > s)) break;
-            s = stop;
+        REAL leap = FAR_AWAY;
+        bool face = !begun;
+        while (s < stretch.end) {
+            if (!fresh && (leaf_waits() || leaf_work >= WALK_BUDGET)) return PIECE_LATER;
+            int found = resolve_step(stretch, side, face, leap, s);
+            if (found == PIECE_HIT && s > limit) return PIECE_NONE;
+            if (found != PIECE_NONE) return found;
+            fresh = begun = face = false;
         }
     }
     return PIECE_LATER;

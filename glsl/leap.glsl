@@ -4,9 +4,11 @@
 // lies between what it is at the end further from the chord's middle and at the place nearest to it (zero beyond the chord's
 // ends); the sums of these bound f. A few lengths h are tried at once, and the longest that is clear is taken: towards the root they
 // shrink like a geometric series, so that a crowd is read some tens of times, not n times.
+//
+// Where the balls come from is the includer's: LEAP_EACH(s, to) statement goes over those that reach beyond s, all that begin before
+// `to` among them, with LEAP_CHORD; behind it LEAP_STOP is the next place, of those gone over, at which a chord begins or ends.
 
 const int LEAPS = 6;                       // lengths, each a quarter of the one before
-const REAL LEAP_LONGEST = NUM(0.5);        // in radii of the first ball that reaches on
 const REAL LEAP_SUM = NUM(0.125) * TAU;    // what adding one more number may round, relative to the sum: well above a half step
 
 REAL leap_sum[LEAPS];    // the most that f can be, seen from outside; the least, from inside
@@ -43,20 +45,17 @@ void leap_take(Chord chord, REAL s, REAL h, REAL side)
     leap_add(chord, s, s + NUM(0.0009765625) * h, high, leap_sum[5], leap_size[5], leap_margin[5]);
 }
 
-// How far from s on f surely stays on its side of L: s where nothing is proven. Then `stop` is the end of a piece to be searched,
-// no further than any of the balls' ends, and near: what a search allows for rounding grows with the piece.
-REAL leap_clear(REAL s, REAL side, out REAL stop)
+// How far from s on, at most h, f surely stays on its side of L: s where nothing is proven. Then `stop` is the end of a piece to be
+// searched, no further than any of the balls' ends, and near: what a search allows for rounding grows with the piece.
+REAL leap_clear(REAL s, REAL h, REAL side, out REAL stop)
 {
-    REAL h = LEAP_LONGEST * ball_get(list_node(links_first).x).radius;
     REAL count = NUM(0.0);
     leap_begin();
-    links_begin(s);
-    while (links_next(s, s + h)) {
-        if (!links_live) continue;
-        leap_take(links_here.chord, s, h, side);
+    LEAP_EACH(s, s + h) {
+        leap_take(LEAP_CHORD, s, h, side);
         count += NUM(1.0);
     }
-    stop = links_end;
+    stop = LEAP_STOP;
     for (int k = 0; k < LEAPS; k++) {
         REAL doubt = TAU * leap_margin[k] + LEAP_SUM * count * leap_size[k];
         if (side * (leap_sum[k] - level.x) > doubt) return s + h > stop ? s + h : s;

@@ -32,7 +32,7 @@ int resolve_walk(REAL limit, inout REAL s)
         if (links_wait(links_work)) break;
         REAL clear = s;
         if (crowded)
-            clear = leap_clear(s, SIDE, stop);
+            clear = leap_clear(s, links_leap(), SIDE, stop);
         else
             stop = links_stop(s);
         if (links_cut) break;
