@@ -60,6 +60,33 @@ static void the_exact_solver_holds_inside_the_domain(void **state)
     }
 }
 
+/* Of the trees, one case of each kind that was hard for them: tiny balls far from the tree's middle, crowds
+ * that only leaps get through, walks that take many dispatches, rays that begin within. */
+static void the_trees_hold_too(void **state)
+{
+    draw_fixture *d = *state;
+    static const struct {
+        const char *name, *runs;
+        mns_kernel kernel;
+        size_t gated;
+    } cases[] = {{"ratio-1e6-near", "fbvh:exact,bvh:exact", MNS_KERNEL_POLY3, 2},
+                 {"nearly-coincident", "bvh:exact", MNS_KERNEL_POLY3, 1},
+                 {"active-1000", "fbvh:exact", MNS_KERNEL_POLY3, 1},
+                 {"line-3000", "fbvh:exact", MNS_KERNEL_POLY3, 1},
+                 {"eye-inside", "bvh:exact", MNS_KERNEL_POLY3, 1},
+                 {"eye-in-ball/perlin", "fbvh:exact", MNS_KERNEL_PERLIN, 1},
+                 {"carving/wyvill", "bvh:exact", MNS_KERNEL_WYVILL, 1},
+                 {"far-eye-1e5", "fbvh:exact", MNS_KERNEL_POLY3, 1}};
+    size_t count = d->gl.backend == MNS_BACKEND_OSMESA ? 1 : sizeof cases / sizeof *cases;
+    for (size_t i = 0; i < count; i++) {
+        gate g;
+        size_t failures;
+        json_decref(run(d, cases[i].runs, cases[i].name, cases[i].kernel, &g, &failures));
+        assert_int_equal(g.gated, cases[i].gated);
+        assert_int_equal(failures, 0);
+    }
+}
+
 static void a_model_that_fails_is_shown_and_not_gated(void **state)
 {
     gate g;
@@ -139,6 +166,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_exact_solver_holds_inside_the_domain),
+        cmocka_unit_test(the_trees_hold_too),
         cmocka_unit_test(a_model_that_fails_is_shown_and_not_gated),
         cmocka_unit_test(beyond_the_domain_is_refused_in_clear_words_or_shown),
         cmocka_unit_test(verdicts_are_as_defined),

@@ -158,14 +158,3 @@ mns_status fbvh_build(fbvh_builder *b, const mns_field *field, const fbvh_option
     *tree = &slot->tree;
     return MNS_OK;
 }
-
-void fbvh_pack_low(const fbvh_tree *tree, const mns_field *field, float *out)
-{
-    for (size_t i = 0; i < tree->ball_count; i++, out += 4) {
-        const fbvh_ball *ball = &tree->ball[i];
-        size_t at = tree->index[i];
-        for (int a = 0; a < 3; a++)
-            out[a] = (float)(field->p.axis[a][at] - tree->origin[a] - (double)ball->position[a]);
-        out[3] = (float)(field_radius(field, at) - (double)ball->radius);
-    }
-}

@@ -110,9 +110,6 @@ void fbvh_builder_destroy(fbvh_builder *builder);
 mns_status fbvh_build(fbvh_builder *builder, const mns_field *field, const fbvh_options *options,
                       const fbvh_tree **tree, mns_error *error);
 
-/* What the floats of tree->ball left over of the doubles: x, y, z and R, four floats a ball. */
-void fbvh_pack_low(const fbvh_tree *tree, const mns_field *field, float *out);
-
 /* Sets options by name, comma separated: bvh | fbvh, cost-n | cost-n2, no-fit, no-tight, no-discard, no-deep,
  * and with numbers discard-most=N, leaf-least=N, traversal-cost=X, middle-levels=N, references=X (a ball),
  * block-bytes=N. NULL or "" changes nothing. Errors: USAGE. */
