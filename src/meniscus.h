@@ -344,6 +344,10 @@ MNS_API void mns_renderer_destroy(mns_renderer *renderer); /* its context curren
 MNS_API const mns_limits *mns_renderer_limits(const mns_renderer *renderer);
 /* GL_RENDERER and GL_VERSION, "llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6". */
 MNS_API const char *mns_renderer_name(const mns_renderer *renderer);
+/* Compiled programs are kept between runs in $XDG_CACHE_HOME/meniscus/programs (~/.cache), where the driver
+ * gives them away: at most 64 MiB. This names another folder for those that are made from now on; NULL: they
+ * are kept nowhere. Nothing fails because of it: what is not there, or does not fit, is compiled. */
+MNS_API void mns_renderer_keep_programs(mns_renderer *renderer, const char *folder);
 /* Messages of medium or high severity that the driver's debug output gave so far (0 where it gives none), and
  * the last. */
 MNS_API size_t mns_renderer_messages(const mns_renderer *renderer, const char **last);
@@ -444,8 +448,9 @@ typedef struct mns_stats {
     bool counted;                /* options.counters: */
     double work[MNS_WORK_COUNT]; /* means a ray */
     uint64_t programs, passes,
-        buffers;           /* compiled and held by the renderer so far; passes of this frame's plan */
-    double color_range[2]; /* legend: what the ends of the colour map stand for; 0,0 without */
+        buffers;                      /* made and held by the renderer so far; passes of this frame's plan */
+    uint64_t programs_kept;           /* of the programs, those that had been kept from an earlier run */
+    double color_range[2];            /* legend: what the ends of the colour map stand for; 0,0 without */
     const char *color_by, *color_map; /* "" without */
 } mns_stats;
 

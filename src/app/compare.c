@@ -34,13 +34,6 @@ static mns_status option_frames(app_options *o, const char *name, const char *te
     return status;
 }
 
-static mns_status option_no_cache(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    (void)name, (void)text, (void)error;
-    o->no_cache = true;
-    return MNS_OK;
-}
-
 static mns_status option_suite(app_options *o, const char *name, const char *text, mns_error *error)
 {
     o->suite = text;
@@ -98,7 +91,8 @@ static const option_row ROWS[] = {
     {"frames", 0, "N",
      "frames a run, of which medians are taken, 5 or more (default 5), after two to warm up", option_frames},
     {"no-cache", 0, NULL,
-     "trace the truth anew, and do not keep it in $XDG_CACHE_HOME/meniscus/truth (default ~/.cache)",
+     "trace the truth and compile the programs anew, and keep neither in $XDG_CACHE_HOME/meniscus "
+     "(default ~/.cache)",
      option_no_cache},
     {"size", 0, "WxH", "pixels (default 1024x768)", option_size},
     {"frame", 0, "A", "the frame of the input, from 0 (default 0)", option_frame},

@@ -66,6 +66,7 @@ mns_status compare_suite(const app_options *o, const char *command, mns_error *e
     if (!status && o->output) status = folder_check(o->output, error);
     if (!status) status = mns_context_create(o->backend, &context, error);
     if (!status) status = mns_renderer_create(mns_context_get_proc(context), &options.renderer, error);
+    if (!status && o->no_cache) mns_renderer_keep_programs(options.renderer, NULL);
     options.runs = runs;
     if (!status) status = run_suite(o, command, context, &options, error);
     mns_renderer_destroy(options.renderer);

@@ -49,6 +49,7 @@ mns_status drawing_open(const app_options *o, drawing *d, mns_error *error)
     status = resolve_view(o, d, frame, error);
     if (!status) status = mns_context_create(o->backend, &d->context, error);
     if (!status) status = mns_renderer_create(mns_context_get_proc(d->context), &d->renderer, error);
+    if (!status && o->no_cache) mns_renderer_keep_programs(d->renderer, NULL);
     if (!status) note_domain(d);
     return status;
 }

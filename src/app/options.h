@@ -21,10 +21,10 @@ typedef struct app_options {
     int repeat;  /* 0: not asked for */
     int threads; /* 0: OpenMP's own choice */
     bool explain;
-    bool gl, json;              /* info */
-    const char *runs;           /* compare; NULL: the default ones */
-    int timed_frames;           /* compare */
-    bool no_cache;              /* compare */
+    bool gl, json;    /* info */
+    const char *runs; /* compare; NULL: the default ones */
+    int timed_frames; /* compare */
+    bool no_cache;
     const char *suite;          /* compare; NULL: none */
     const char *suite_case;     /* of it, those whose name matches; NULL: all */
     bool quick;                 /* of it, without the heavy ones */
@@ -63,7 +63,8 @@ void options_free(app_options *o);
 /* Rows that commands share. */
 option_apply option_kernel, option_iso, option_radius, option_radius_scale, option_frame;
 option_apply option_output, option_size, option_eye, option_look_at, option_up, option_fov;
-option_apply option_method, option_solver, option_gather, option_backend, option_threads;
+option_apply option_method, option_solver, option_tree, option_secant_steps, option_counters, option_gather;
+option_apply option_backend, option_threads, option_no_cache;
 
 #define OPTIONS_OF_FIELD                                                                                     \
     {NULL, 0, NULL, "Field (over what the input says):", NULL},                                              \

@@ -171,6 +171,7 @@ static mns_status start_renderer(render_job *job, mns_error *error)
         return app_fail(error, MNS_ERROR_MEMORY, "out of memory before drawing; try a smaller --repeat");
     mns_status status = mns_context_create(job->o->backend, &job->context, error);
     if (!status) status = mns_renderer_create(mns_context_get_proc(job->context), &job->renderer, error);
+    if (!status && job->o->no_cache) mns_renderer_keep_programs(job->renderer, NULL);
     if (!status) status = mns_frame_create(job->renderer, &job->frame, error);
     return status;
 }

@@ -169,96 +169,13 @@ static mns_status option_shininess(app_options *o, const char *name, const char 
     return parse_positive(name, text, &o->look.shininess, error);
 }
 
-/* ---- Method
- * ---------------------------------------------------------------------------------------------------- */
-
-static const char *method_name(int i)
-{
-    static const char *const names[] = {"auto", "list", "reference", "tile", "fbvh", "bvh"};
-    return names[i];
-}
-
-mns_status option_method(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    int index;
-    mns_status status = parse_name(name, text, method_name, MNS_METHOD_BVH + 1, &index, error);
-    if (!status) o->draw.method = (mns_method)index;
-    return status;
-}
-
-static const char *solver_name(int i)
-{
-    static const char *const names[] = {"exact", "cubic", "cubic-monomial", "secant"};
-    return names[i];
-}
-
-mns_status option_solver(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    int index;
-    mns_status status = parse_name(name, text, solver_name, MNS_SOLVER_SECANT + 1, &index, error);
-    if (!status) o->draw.solver = (mns_solver)index;
-    return status;
-}
-
-static mns_status option_tree(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    (void)name, (void)error;
-    o->draw.tree = text;
-    return MNS_OK;
-}
-
-static mns_status option_secant_steps(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    return parse_count(name, text, 4096, &o->draw.secant_steps, error);
-}
-
-static mns_status option_counters(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    (void)name, (void)text, (void)error;
-    o->draw.counters = true;
-    return MNS_OK;
-}
-
-static const char *gather_name(int i)
-{
-    static const char *const names[] = {"early-z", "paper"};
-    return names[i];
-}
-
-mns_status option_gather(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    int index;
-    mns_status status = parse_name(name, text, gather_name, MNS_GATHER_PAPER + 1, &index, error);
-    if (!status) o->draw.gather = (mns_gather)index;
-    return status;
-}
-
-static const char *backend_name(int i)
-{
-    static const char *const names[] = {"auto", "egl", "osmesa", "glfw"};
-    return names[i];
-}
-
-mns_status option_backend(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    int index;
-    mns_status status = parse_name(name, text, backend_name, MNS_BACKEND_GLFW + 1, &index, error);
-    if (!status) o->backend = (mns_backend)index;
-    return status;
-}
+/* ---- Output and measurement
+ * ------------------------------------------------------------------------------------ */
 
 static mns_status option_samples(app_options *o, const char *name, const char *text, mns_error *error)
 {
     return parse_count(name, text, 64, &o->draw.samples, error);
 }
-
-mns_status option_threads(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    return parse_count(name, text, 1024, &o->threads, error);
-}
-
-/* ---- Output and measurement
- * ------------------------------------------------------------------------------------ */
 
 mns_status option_output(app_options *o, const char *name, const char *text, mns_error *error)
 {
@@ -389,6 +306,10 @@ static const option_row ROWS[] = {
     {"gather", 0, "NAME", "early-z (the default) or paper, the passes as published", option_gather},
     {"backend", 0, "NAME", "auto (the default: the first that starts), egl, osmesa or glfw", option_backend},
     {"threads", 0, "N", "threads on the CPU (default: one a core)", option_threads},
+    {"no-cache", 0, NULL,
+     "compile every program; else they are kept under $XDG_CACHE_HOME/meniscus/programs where the driver "
+     "gives them away",
+     option_no_cache},
     HEADING("Measurement:"),
     {"stats", 0, "FILE.json", "write times, counts, and what was left out", option_stats},
     {"repeat", 0, "N", "draw each frame N times; --stats gets the first and the median", option_repeat},

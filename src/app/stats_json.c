@@ -67,6 +67,7 @@ static json_t *counts(const stats_frame *frame)
     json_object_set_new(object, "tiles", json_count(s->tiles));
     json_object_set_new(object, "passes", json_count(s->passes));
     json_object_set_new(object, "programs", json_count(s->programs));
+    json_object_set_new(object, "programs_kept", json_count(s->programs_kept));
     json_object_set_new(object, "buffers", json_count(s->buffers));
     json_object_set_new(object, "driver_messages", json_count(frame->messages));
     return object;

@@ -34,6 +34,7 @@ static const option_row ROWS[] = {
     {"gather", 0, "NAME", "early-z (the default) or paper", option_gather},
     {"backend", 0, "NAME", "auto (the default: the first that starts), egl, osmesa or glfw", option_backend},
     {"threads", 0, "N", "threads on the CPU (default: one a core)", option_threads},
+    {"no-cache", 0, NULL, "as for render", option_no_cache},
 };
 
 static const option_table VERIFY_OPTIONS = {

@@ -1,18 +1,15 @@
 #include "compare/truth_cache.h"
 
-#include <dirent.h>
-#include <errno.h>
-#include <fcntl.h>
+#include "base/store.h"
+
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 /* The cache is let grow to this many bytes; a truth of 1024x768 pixels takes 51 MB. */
-#define CACHE_BYTES ((off_t)1 << 30)
+#define CACHE_BYTES ((uint64_t)1 << 30)
 
-enum { PATH_SIZE = 3000, PLANES = 6, FORMAT = 1 };
+enum { PLANES = 6, FORMAT = 1 };
 
 static const uint64_t MAGIC = 0x4854555254534e4du; /* "MNSTRUTH", read in this machine's order of bytes */
 
@@ -47,44 +44,8 @@ static uint64_t checksum_of(double ms, const cache_plane *list, size_t count)
 {
     uint64_t sum;
     memcpy(&sum, &ms, sizeof sum);
-    for (size_t k = 0; k < count; k++) {
-        const unsigned char *bytes = list[k].data;
-        for (size_t i = 0; i < list[k].size; i += 8) {
-            uint64_t word = 0;
-            memcpy(&word, bytes + i, list[k].size - i < 8 ? list[k].size - i : 8);
-            sum = (sum ^ word) * 0xff51afd7ed558ccdu;
-            sum ^= sum >> 32;
-        }
-    }
+    for (size_t k = 0; k < count; k++) sum = store_sum(sum, list[k].data, list[k].size);
     return sum;
-}
-
-/* ---- Places
- * -------------------------------------------------------------------------------------------------------- */
-
-/* Makes every folder of the path that is not there; false where one cannot be. */
-static bool make_folders(char *path)
-{
-    for (char *slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
-        *slash = '\0';
-        bool there = !mkdir(path, 0777) || errno == EEXIST;
-        *slash = '/';
-        if (!there) return false;
-    }
-    return !mkdir(path, 0777) || errno == EEXIST;
-}
-
-/* The cache's folder, by the XDG base directory specification: a relative path in the variable is to be
- * passed over. */
-static bool cache_folder(char path[PATH_SIZE])
-{
-    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    int length = -1;
-    if (cache && *cache == '/')
-        length = snprintf(path, PATH_SIZE, "%s/meniscus/truth", cache);
-    else if (home && *home == '/')
-        length = snprintf(path, PATH_SIZE, "%s/.cache/meniscus/truth", home);
-    return length > 0 && length < PATH_SIZE - 100;
 }
 
 /* ---- Reading
@@ -111,94 +72,40 @@ static bool read_file(FILE *file, truth_planes *p)
 
 bool truth_cache_read(truth_planes *planes)
 {
-    char path[PATH_SIZE];
-    if (!cache_folder(path)) return false;
-    size_t used = strlen(path);
-    snprintf(path + used, sizeof path - used, "/%s.truth", planes->hash);
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0) return false;
-    FILE *file = fdopen(descriptor, "rb");
+    char folder[STORE_PATH];
+    FILE *file = store_folder("truth", folder) ? store_open(folder, planes->hash, "truth") : NULL;
     bool good = file && read_file(file, planes);
-    if (file)
-        fclose(file);
-    else
-        close(descriptor);
-    if (good)
-        utimensat(AT_FDCWD, path, NULL, 0); /* the oldest is what was not used for longest */
-    else
-        unlink(path);
+    store_close(file, folder, planes->hash, "truth", good);
     return good;
 }
 
 /* ---- Writing
  * ------------------------------------------------------------------------------------------------------- */
 
-static bool write_file(FILE *file, const truth_planes *p)
-{
-    cache_plane plane[PLANES];
-    size_t count = list_planes(p, plane);
-    cache_header header = {.magic = MAGIC,
-                           .format = FORMAT,
-                           .has_rgba = p->rgba != NULL,
-                           .width = p->width,
-                           .height = p->height,
-                           .ms = p->ms,
-                           .checksum = checksum_of(p->ms, plane, count)};
-    memcpy(header.hash, p->hash, sizeof header.hash);
-    bool good = fwrite(&header, sizeof header, 1, file) == 1;
-    for (size_t k = 0; k < count && good; k++)
-        good = fwrite(plane[k].data, 1, plane[k].size, file) == plane[k].size;
-    return good;
-}
-
-/* Removes the truth that was not used for longest; false where the cache is within its size, or cannot be
- * seen through. */
-static bool remove_oldest(const char *folder)
-{
-    char path[PATH_SIZE + 256], oldest[PATH_SIZE + 256] = "";
-    struct timespec least = {0};
-    off_t total = 0;
-    DIR *list = opendir(folder);
-    if (!list) return false;
-    for (struct dirent *entry; (entry = readdir(list));) {
-        struct stat about;
-        size_t length = strlen(entry->d_name);
-        if (length != TRUTH_HASH_SIZE + 5 || strcmp(entry->d_name + length - 6, ".truth")) continue;
-        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-        if (stat(path, &about)) continue;
-        total += about.st_size;
-        bool older = about.st_mtim.tv_sec < least.tv_sec ||
-                     (about.st_mtim.tv_sec == least.tv_sec && about.st_mtim.tv_nsec < least.tv_nsec);
-        if (*oldest && !older) continue;
-        least = about.st_mtim;
-        memcpy(oldest, path, sizeof oldest);
-    }
-    closedir(list);
-    return total > CACHE_BYTES && unlink(oldest) == 0;
-}
-
 void truth_cache_write(truth_planes *planes)
 {
-    char folder[PATH_SIZE], path[PATH_SIZE + 64], beside[PATH_SIZE + 64];
-    if (!cache_folder(folder)) {
+    char folder[STORE_PATH];
+    if (!store_folder("truth", folder)) {
         snprintf(planes->note, sizeof planes->note,
                  "the truth is not kept for the next time: neither XDG_CACHE_HOME nor HOME is set");
         return;
     }
-    snprintf(path, sizeof path, "%s/%s.truth", folder, planes->hash);
-    snprintf(beside, sizeof beside, "%s/.%s-%ld.part", folder, planes->hash, (long)getpid());
-    errno = 0;
-    FILE *file = make_folders(folder) ? fopen(beside, "wbx") : NULL;
-    bool good = file && write_file(file, planes);
-    if (file && fclose(file)) good = false;
-    good = good && !rename(beside, path);
-    int code = errno;
-    if (file && !good) unlink(beside);
-    if (good) {
-        while (remove_oldest(folder)) continue;
-        return;
-    }
+    cache_plane plane[PLANES];
+    store_part part[PLANES + 1];
+    size_t count = list_planes(planes, plane);
+    for (size_t k = 0; k < count; k++) part[k + 1] = (store_part){plane[k].data, plane[k].size};
+    cache_header header = {.magic = MAGIC,
+                           .format = FORMAT,
+                           .has_rgba = planes->rgba != NULL,
+                           .width = planes->width,
+                           .height = planes->height,
+                           .ms = planes->ms,
+                           .checksum = checksum_of(planes->ms, plane, count)};
+    memcpy(header.hash, planes->hash, sizeof header.hash);
+    part[0] = (store_part){&header, sizeof header};
     char reason[64];
-    snprintf(planes->note, sizeof planes->note, "the truth is not kept for the next time: %.90s: %s", folder,
-             strerror_r(code ? code : EIO, reason, sizeof reason));
+    int code = store_write(folder, planes->hash, "truth", part, count + 1, CACHE_BYTES);
+    if (code)
+        snprintf(planes->note, sizeof planes->note, "the truth is not kept for the next time: %.90s: %s",
+                 folder, strerror_r(code, reason, sizeof reason));
 }

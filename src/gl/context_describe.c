@@ -57,6 +57,9 @@ static void print_abilities(FILE *out, const GladGLContext *gl)
     gl->GetIntegerv(GL_MINOR_VERSION, &minor);
     bool clip = major > 4 || (major == 4 && minor >= 5) || has_extension(gl, "GL_ARB_clip_control");
     fprintf(out, "  clip control        %s\n", clip ? "yes" : "no");
+    GLint formats = 0;
+    gl->GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
+    fprintf(out, "  program binaries    %s\n", formats > 0 ? "yes" : "no");
     fprintf(out, "  fragment interlock  %s\n",
             has_extension(gl, "GL_ARB_fragment_shader_interlock") ? "yes" : "no");
 }

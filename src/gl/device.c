@@ -69,7 +69,9 @@ mns_status gl_device_open(gl_device *device, mns_get_proc get_proc, mns_error *e
                            minor);
     const char *renderer = (const char *)device->gl.GetString(GL_RENDERER);
     const char *text = (const char *)device->gl.GetString(GL_VERSION);
+    const char *vendor = (const char *)device->gl.GetString(GL_VENDOR);
     snprintf(device->name, sizeof device->name, "%s, %s", renderer ? renderer : "?", text ? text : "?");
+    snprintf(device->vendor, sizeof device->vendor, "%s", vendor ? vendor : "?");
     read_limits(device);
     listen(device);
     return MNS_OK;

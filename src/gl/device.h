@@ -9,7 +9,8 @@
 typedef struct gl_device {
     GladGLContext gl;
     mns_limits limits;
-    char name[256];  /* renderer, version */
+    char name[256]; /* renderer, version */
+    char vendor[128];
     size_t messages; /* of medium or high severity, from the driver's debug output */
     char last_message[256];
 } gl_device;

@@ -70,16 +70,21 @@ char *glsl_assemble(const char *file, const char *defines)
     return t.data;
 }
 
-static mns_status compile(gl_device *device, GLuint program, GLenum stage, const char *file,
-                          const char *defines, mns_error *error)
+/* One stage of a program. */
+typedef struct program_stage {
+    GLenum kind;
+    const char *file;
+    char *source;
+} program_stage;
+
+enum { STAGES = 3 };
+
+static mns_status compile(gl_device *device, GLuint program, const program_stage *stage, mns_error *error)
 {
     const GladGLContext *gl = &device->gl;
-    char *source = glsl_assemble(file, defines);
-    if (!source) return status_no_memory(error, "while assembling a shader");
-    GLuint shader = gl->CreateShader(stage);
-    gl->ShaderSource(shader, 1, (const GLchar *const *)&source, NULL);
+    GLuint shader = gl->CreateShader(stage->kind);
+    gl->ShaderSource(shader, 1, (const GLchar *const *)&stage->source, NULL);
     gl->CompileShader(shader);
-    free(source);
     GLint good = GL_FALSE;
     gl->GetShaderiv(shader, GL_COMPILE_STATUS, &good);
     char log[256] = "";
@@ -87,35 +92,61 @@ static mns_status compile(gl_device *device, GLuint program, GLenum stage, const
     gl->AttachShader(program, shader);
     gl->DeleteShader(shader); /* lives on with the program */
     if (good) return MNS_OK;
-    return status_fail(error, MNS_ERROR_GL, "%s does not compile on %s: %s", file, device->name, log);
+    return status_fail(error, MNS_ERROR_GL, "%s does not compile on %s: %s", stage->file, device->name, log);
 }
 
-static mns_status build(gl_device *device, const gl_shader *shader, GLuint *id, mns_error *error)
+static mns_status compile_and_link(gl_device *device, GLuint program, const program_stage stage[STAGES],
+                                   mns_error *error)
 {
     const GladGLContext *gl = &device->gl;
-    GLuint program = gl->CreateProgram();
-    mns_status status = MNS_OK;
-    if (shader->vertex)
-        status = compile(device, program, GL_VERTEX_SHADER, shader->vertex, shader->defines, error);
-    if (!status && shader->fragment)
-        status = compile(device, program, GL_FRAGMENT_SHADER, shader->fragment, shader->defines, error);
-    if (!status && shader->compute)
-        status = compile(device, program, GL_COMPUTE_SHADER, shader->compute, shader->defines, error);
-    if (status) goto fail;
+    for (int i = 0; i < STAGES; i++) {
+        mns_status status = stage[i].file ? compile(device, program, &stage[i], error) : MNS_OK;
+        if (status) return status;
+    }
     gl->LinkProgram(program);
     GLint good = GL_FALSE;
     gl->GetProgramiv(program, GL_LINK_STATUS, &good);
-    if (!good) {
-        char log[256] = "";
-        gl->GetProgramInfoLog(program, sizeof log, NULL, log);
-        const char *file = shader->fragment ? shader->fragment : shader->compute;
-        status = status_fail(error, MNS_ERROR_GL, "%s does not link on %s: %s", file, device->name, log);
-        goto fail;
+    if (good) return MNS_OK;
+    char log[256] = "";
+    gl->GetProgramInfoLog(program, sizeof log, NULL, log);
+    const char *file = stage[1].file ? stage[1].file : stage[2].file;
+    return status_fail(error, MNS_ERROR_GL, "%s does not link on %s: %s", file, device->name, log);
+}
+
+/* A program made of its stages' text, unless it was made so before. */
+static mns_status make(gl_device *device, gl_binaries *binaries, const program_stage stage[STAGES],
+                       GLuint *id, mns_error *error)
+{
+    gl_binary_key key = gl_binary_key_begin(device);
+    for (int i = 0; i < STAGES; i++) gl_binary_key_add(&key, stage[i].source ? stage[i].source : "");
+    GLuint program = device->gl.CreateProgram();
+    mns_status status = MNS_OK;
+    if (!gl_binary_take(device, binaries, &key, program)) {
+        gl_binary_ask(device, binaries, program);
+        status = compile_and_link(device, program, stage, error);
+        if (!status) gl_binary_leave(device, binaries, &key, program);
     }
-    *id = program;
-    return MNS_OK;
-fail:
-    gl->DeleteProgram(program);
+    if (status)
+        device->gl.DeleteProgram(program);
+    else
+        *id = program;
+    return status;
+}
+
+static mns_status build(gl_device *device, gl_binaries *binaries, const gl_shader *shader, GLuint *id,
+                        mns_error *error)
+{
+    program_stage stage[STAGES] = {{GL_VERTEX_SHADER, shader->vertex, NULL},
+                                   {GL_FRAGMENT_SHADER, shader->fragment, NULL},
+                                   {GL_COMPUTE_SHADER, shader->compute, NULL}};
+    mns_status status = MNS_OK;
+    for (int i = 0; i < STAGES && !status; i++) {
+        if (!stage[i].file) continue;
+        stage[i].source = glsl_assemble(stage[i].file, shader->defines);
+        if (!stage[i].source) status = status_no_memory(error, "while assembling a shader");
+    }
+    if (!status) status = make(device, binaries, stage, id, error);
+    for (int i = 0; i < STAGES; i++) free(stage[i].source);
     return status;
 }
 
@@ -150,7 +181,7 @@ mns_status gl_program_get(gl_device *device, gl_programs *programs, const gl_sha
         goto done;
     }
     programs->item = item;
-    status = build(device, shader, id, error);
+    status = build(device, &programs->binaries, shader, id, error);
     if (status) goto done;
     programs->item[programs->count++] = (gl_program){key, *id};
     return MNS_OK;

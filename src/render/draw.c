@@ -234,6 +234,7 @@ static mns_status draw_all(draw *d, mns_error *error)
     if (!status && d->plan->features & FEATURE_COUNTERS) status = draw_work_count(d, error);
     list_lengths_finish(&d->lengths, d->stats);
     d->stats->programs = r->programs.count;
+    d->stats->programs_kept = r->programs.binaries.taken;
     d->stats->buffers = draw_buffers_count(r);
     return status ? status : gl_check(&r->device, "drawing", error);
 }

@@ -13,8 +13,15 @@ mns_status mns_renderer_create(mns_get_proc get_proc, mns_renderer **renderer, m
         free(r);
         return status;
     }
+    char folder[STORE_PATH];
+    gl_binaries_open(&r->device, &r->programs.binaries, store_folder("programs", folder) ? folder : NULL);
     *renderer = r;
     return MNS_OK;
+}
+
+void mns_renderer_keep_programs(mns_renderer *renderer, const char *folder)
+{
+    gl_binaries_open(&renderer->device, &renderer->programs.binaries, folder);
 }
 
 void mns_renderer_destroy(mns_renderer *r)
