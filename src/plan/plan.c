@@ -84,13 +84,21 @@ static mns_limits resolve_limits(const mns_limits *limits)
     return l;
 }
 
+/* Balls of a ray that the fast path holds at once: those around one place, or, by a tree, in one leaf. Where
+ * leaves overlap, one holds all that reach any of its own balls. */
+static int default_slots(const mns_options *options, const mns_limits *limits)
+{
+    if (options->method == MNS_METHOD_BVH) return 256;
+    return limits->is_software || options->method == MNS_METHOD_FBVH ? 64 : 24;
+}
+
 static void resolve_options(const mns_options *options, mns_plan *plan)
 {
     mns_options *o = &plan->options;
     *o = options ? *options : (mns_options){0};
     if (o->method == MNS_METHOD_AUTO) o->method = MNS_METHOD_LIST;
     if (!o->samples) o->samples = 1;
-    if (!o->slots) o->slots = plan->limits.is_software || o->method >= MNS_METHOD_FBVH ? 64 : 24;
+    if (!o->slots) o->slots = default_slots(o, &plan->limits);
     if (!o->root_steps) o->root_steps = 48;
     if (!o->secant_steps) o->secant_steps = 16;
     plan->method_reason = options && options->method != MNS_METHOD_AUTO
