@@ -13,12 +13,22 @@ layout(std140, binding = 0) uniform Shade {
     vec4 map[10];       // colour map, sRGB
 };
 
+layout(location = 0) out vec4 out_color;
+
+#ifdef LIT
+// Colours are made already, premultiplied, with all that light does on its way.
+layout(binding = 2) uniform sampler2D plane_lit;
+
+void main()
+{
+    out_color = texelFetch(plane_lit, ivec2(gl_FragCoord.xy), 0) * light.w;
+}
+#else
 layout(binding = 0) uniform sampler2D plane_t;
 layout(binding = 1) uniform sampler2D plane_normal;
 #ifdef COLORS
 layout(binding = 2) uniform sampler2D plane_color;
 #endif
-layout(location = 0) out vec4 out_color;
 
 vec3 albedo(ivec2 at)
 {
@@ -66,3 +76,4 @@ void main()
     }
     out_color = color * light.w;
 }
+#endif

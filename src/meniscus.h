@@ -181,7 +181,12 @@ typedef struct mns_view {
 MNS_API mns_status mns_view_resolve(const mns_view *view, const mns_field *field, mns_view *resolved,
                                     mns_error *error);
 
-typedef enum mns_light_kind { MNS_LIGHT_HEAD = 0, MNS_LIGHT_DIRECTIONAL } mns_light_kind;
+typedef enum mns_light_kind {
+    MNS_LIGHT_HEAD = 0,    /* at the eye; casts no shadow */
+    MNS_LIGHT_DIRECTIONAL, /* from far away */
+    MNS_LIGHT_POINT,
+    MNS_LIGHT_AREA /* a sphere; without shadows as a point in its middle */
+} mns_light_kind;
 typedef enum mns_shading { MNS_SHADING_SMOOTH = 0, MNS_SHADING_CEL } mns_shading;
 typedef enum mns_color_map {
     MNS_COLOR_MAP_VIRIDIS = 0,
@@ -205,12 +210,60 @@ enum { /* bits of mns_look.set: the members below that are given */
        MNS_LOOK_RANGE = 4,
        MNS_LOOK_AMBIENT = 8,
        MNS_LOOK_DIFFUSE = 16,
-       MNS_LOOK_SPECULAR = 32
+       MNS_LOOK_SPECULAR = 32,
+       MNS_LOOK_MIRROR = 64,
+       MNS_LOOK_TRANSMISSION = 128,
+       /* What is not 0 counts as given; these say that a 0 is meant, where a preset has something else: */
+       MNS_LOOK_LIGHT = 256, /* light and lights */
+       MNS_LOOK_SHADOWS = 512,
+       MNS_LOOK_REFLECTIONS = 1024,
+       MNS_LOOK_REFRACTIONS = 2048,
+       MNS_LOOK_INDEX = 4096,
+       MNS_LOOK_ABSORPTION = 8192,
+       MNS_LOOK_OCCLUSION = 16384,
+       MNS_LOOK_ENVIRONMENT = 32768
 };
+
+typedef struct mns_light {
+    mns_light_kind kind;
+    double direction[3]; /* of DIRECTIONAL: towards the light; 0,0,0: 1,2,1.5 */
+    double position[3];  /* of POINT and AREA, scene units */
+    double radius;       /* of AREA, above 0 */
+    double color[3];     /* sRGB; 0,0,0: white */
+    double strength;     /* times the colour; 0: 1. There is no falloff */
+} mns_light;
+
+/* What light does on its way beyond the first hit: a branch at each surface, at most these deep. Each ray is
+ * traced as exactly as the first. A ray whose share of the pixel is below 1/1024, and one past the last level
+ * that is allowed, sees the environment in its direction. What changes nothing (no share, no rays, no light)
+ * is left out, and the picture is that without it, bit for bit. */
+typedef struct mns_effects {
+    bool shadows;       /* of every light but one at the eye */
+    int shadow_samples; /* rays a pixel and area light, at most 4096; 0: 16 */
+    int reflections;    /* mirror levels, at most 8; 0: a mirrored share sees the environment alone */
+    int refractions;    /* surfaces that a ray may pass through (or meet in total reflection), at most 16 */
+    double mirror;      /* share mirrored at any angle, [0, 1]; default 0.3 with reflections and no index */
+    double index; /* of refraction, at least 1: it bends rays, and Fresnel's share is mirrored; 0: none */
+    double transmission;    /* of what is not mirrored, the share that goes through rather than being shaded,
+                               [0, 1]; default 1 with refractions; without them 0 */
+    double absorption[3];   /* Beer's law inside, a scene unit, each at least 0 */
+    int occlusion_rays;     /* of the ambient light, cosine-weighted, at most 4096; 0: none */
+    double occlusion_reach; /* scene units; 0: a tenth of the diagonal of the effective spheres' box */
+    const char
+        *environment; /* NULL or "": the background's colour; "sky": a built-in one; else an .exr or .png,
+                         the whole sphere by longitude and latitude: up is the view's up, the middle is
+                         straight ahead of a camera that looks along -z. Borrowed for the call */
+    uint32_t seed;    /* of the samples: the same seed gives the same bits */
+} mns_effects;
 
 typedef struct mns_look {
     unsigned set;
-    mns_light_kind light;
+    const char
+        *preset; /* NULL or "": none; else as mns_look_preset would lay it under; borrowed for the call */
+    const mns_light *lights; /* instead of `light`; at most 256, borrowed for the call */
+    size_t light_count;      /* 0: the one light of `light` and `light_direction` */
+    mns_effects effects;
+    mns_light_kind light;      /* HEAD or DIRECTIONAL */
     double light_direction[3]; /* towards the light; for DIRECTIONAL; 0,0,0: 1,2,1.5 */
     mns_shading shading;
     int cel_bands;        /* 0: 3 */
@@ -222,6 +275,12 @@ typedef struct mns_look {
     mns_color_map color_map;
     double range[2]; /* value range of the map; default: the column's minimum and maximum */
 } mns_look;
+
+/* Fills what a look leaves open (0, and no bit of `set`) as the preset `name` has it: "plain" (nothing),
+ * "clay", "water", "molecule", "glass". Errors: USAGE (no such preset). */
+MNS_API mns_status mns_look_preset(const char *name, mns_look *look, mns_error *error);
+/* The name of preset `index`; NULL from the last on. */
+MNS_API const char *mns_look_preset_name(size_t index);
 
 typedef enum mns_method {
     MNS_METHOD_AUTO = 0,
@@ -432,6 +491,8 @@ typedef struct mns_stats {
     bool timed;                 /* options.measure: phases were bracketed by glFinish */
     uint64_t balls, balls_in_view;
     uint64_t pixels_hit, pixels_undecided;
+    uint64_t effects_rays;      /* traced beyond the first hit */
+    uint64_t effects_undecided; /* pixels of which some of those could not be decided */
     uint64_t list_nodes;        /* fragments gathered */
     double list_mean, list_p99; /* nodes a non-empty pixel */
     uint64_t list_max;
@@ -482,6 +543,12 @@ typedef struct mns_image {
     float *certain; /* 1, or 0 where undecided */
     float *t_error; /* bound on the error of t + t_lo; NULL where the method gives none */
     float *work;    /* MNS_WORK_COUNT counts a pixel, with options.counters; else NULL */
+    /* Terms of the look's effects at the first hit; NULL where the effect is off. */
+    float *shadow;          /* mean share of the casting lights that reaches it; 1 on a miss */
+    float *occlusion;       /* share of its occlusion rays that meet nothing; 1 on a miss */
+    float *mirror_t;        /* distance on to what its mirrored ray meets; +inf: nothing, or not traced */
+    float *refract_t;       /* and its refracted ray */
+    float *effects_certain; /* 1, or 0 where some ray beyond the first hit was undecided */
 } mns_image;
 
 /* Reads a frame's planes. Errors: USAGE (not drawn yet), MEMORY, GL. */
@@ -492,9 +559,9 @@ MNS_API void mns_image_destroy(mns_image *image);
 MNS_API mns_status mns_image_heat(const mns_image *image, mns_work count, mns_color_map map, mns_image **heat,
                                   double *most, mns_error *error);
 /* Writes an image: .png (8-bit sRGB with alpha where any pixel is not opaque) or .exr (float32 R G B A, t,
- * t.lo, N.X, N.Y, N.Z, certain and, where there are some, t.err and work.nodes, work.leaves, work.balls,
- * work.rounds, ZIP-compressed), written beside the name and renamed. Errors: USAGE (unknown ending), IO,
- * MEMORY. */
+ * t.lo, N.X, N.Y, N.Z, certain and, where there are some, t.err, work.nodes, work.leaves, work.balls,
+ * work.rounds, shadow, occlusion, mirror.t, refract.t and certain.effects, ZIP-compressed), written beside
+ * the name and renamed. Errors: USAGE (unknown ending), IO, MEMORY. */
 MNS_API mns_status mns_image_write(const mns_image *image, const char *path, mns_error *error);
 /* Reads back an .exr that mns_image_write wrote. Errors: IO, INPUT, MEMORY. */
 MNS_API mns_status mns_image_read(const char *path, mns_image **image, mns_error *error);

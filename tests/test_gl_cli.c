@@ -88,8 +88,9 @@ static void one_frame_prints_one_line_and_writes_its_files(void **state)
 static void statistics_hold_every_key_of_the_design(void **state)
 {
     static const char *const count_key[] = {
-        "balls", "balls_in_view", "pixels",   "pixels_hit",    "pixels_undecided", "list_nodes",
-        "tiles", "passes",        "programs", "programs_kept", "buffers",          "driver_messages"};
+        "balls",        "balls_in_view",     "pixels",     "pixels_hit",     "pixels_undecided",
+        "effects_rays", "effects_undecided", "list_nodes", "tiles",          "passes",
+        "programs",     "programs_kept",     "buffers",    "driver_messages"};
     static const char *const list_key[] = {"mean", "p99", "max"};
     static const char *const fallback_key[] = {"pool_grown",      "tiled",    "lists_sorted",
                                                "active_overflow", "root_cap", "undecided_float"};

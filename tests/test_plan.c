@@ -30,6 +30,16 @@
 #define TILE_PASSES  "sort bin upload cast resolve shade"
 #define TILES        (FEATURE_TILES | SPECULAR)
 #define TILE_METHOD  .options = {.method = MNS_METHOD_TILE}
+#define TRUE_METHOD  .options = {.method = MNS_METHOD_REFERENCE}
+#define LIT_PASSES   "trace effects shade"
+#define LIT          (POLY3 | FEATURE_REFERENCE | FEATURE_LIT)
+#define FROM_A_SIDE  .light = MNS_LIGHT_DIRECTIONAL
+
+static const mns_light point_light = {.kind = MNS_LIGHT_POINT, .position = {1, 2, 3}},
+                       area_light = {.kind = MNS_LIGHT_AREA, .position = {1, 2, 3}, .radius = 0.5},
+                       dim_light = {.kind = MNS_LIGHT_HEAD, .strength = 0.5},
+                       two_lights[2] = {{.kind = MNS_LIGHT_HEAD}, {.kind = MNS_LIGHT_DIRECTIONAL}},
+                       plain_light = {.kind = MNS_LIGHT_DIRECTIONAL, .direction = {0, 1, 0}, .strength = 1};
 
 static const scene scenes[] = {
     {"defaults, the least driver", .desc = {SCENE_UNIT}, .features = POLY3 | CORE | LEAST,
@@ -177,6 +187,70 @@ static const scene scenes[] = {
      .features = POLY3 | SPECULAR | FEATURE_REFERENCE | FEATURE_SAMPLES | FEATURE_COLORS | FEATURE_LABELS |
                  FEATURE_CEL,
      .passes = "trace shade"},
+    {"one light in a list, as plain as the look's", .desc = {SCENE_UNIT},
+     .look = {.lights = &plain_light, .light_count = 1},
+     .features = POLY3 | CORE | LEAST | FEATURE_DIRECTIONAL, .passes = CORE_PASSES,
+     .left_out = "several lights: one light, white, of strength 1"},
+    {"shadows of a light at the eye", .desc = {SCENE_UNIT}, .look = {.effects = {.shadows = true}},
+     .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES,
+     .left_out = "shadows: a light at the eye casts none"},
+    {"a mirror that mirrors nothing", .desc = {SCENE_UNIT},
+     .look = {.set = MNS_LOOK_MIRROR, .effects = {.reflections = 3}}, .features = POLY3 | CORE | LEAST,
+     .passes = CORE_PASSES, .left_out = "mirroring: nothing is mirrored"},
+    {"an index of 1", .desc = {SCENE_UNIT}, .look = {.effects = {.index = 1}},
+     .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES,
+     .left_out = "Fresnel's share: no index of refraction above 1"},
+    {"glass that lets nothing through", .desc = {SCENE_UNIT},
+     .look = {.set = MNS_LOOK_TRANSMISSION, .effects = {.refractions = 4, .absorption = {1, 1, 1}}},
+     .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES,
+     .left_out = "refraction: nothing goes through the surface"},
+    {"occlusion of no ambient light", .desc = {SCENE_UNIT},
+     .look = {.set = MNS_LOOK_AMBIENT, .effects = {.occlusion_rays = 8}}, .features = POLY3 | CORE | LEAST,
+     .passes = CORE_PASSES, .left_out = "occlusion: the ambient light's strength is 0"},
+    {"shadows of light that does nothing", .desc = {SCENE_UNIT},
+     .look = {FROM_A_SIDE, .set = MNS_LOOK_DIFFUSE | MNS_LOOK_SPECULAR, .effects = {.shadows = true}},
+     .features = POLY3 | CORE | QUADS | FEATURE_DIRECTIONAL, .passes = CORE_PASSES,
+     .left_out = "shadows: no light's share of the picture is above 0"},
+    {"shadows", .desc = {SCENE_UNIT}, TRUE_METHOD, .look = {FROM_A_SIDE, .effects = {.shadows = true}},
+     .features = LIT | SPECULAR | FEATURE_DIRECTIONAL | FEATURE_SHADOWS, .passes = LIT_PASSES,
+     .left_out = "soft shadows: no light is a sphere"},
+    {"a point light, without shadows", .desc = {SCENE_UNIT}, TRUE_METHOD,
+     .look = {.lights = &point_light, .light_count = 1}, .features = LIT | SPECULAR | FEATURE_POINT_LIGHTS,
+     .passes = LIT_PASSES, .left_out = "a light of its own: every light is at the eye or at a point"},
+    {"soft shadows", .desc = {SCENE_UNIT}, TRUE_METHOD,
+     .look = {.lights = &area_light, .light_count = 1, .effects = {.shadows = true}},
+     .features = LIT | SPECULAR | FEATURE_POINT_LIGHTS | FEATURE_SHADOWS | FEATURE_SOFT_SHADOWS,
+     .passes = LIT_PASSES, .left_out = "occlusion: nobody asks for them"},
+    {"two lights", .desc = {SCENE_UNIT}, TRUE_METHOD, .look = {.lights = two_lights, .light_count = 2},
+     .features = LIT | SPECULAR | FEATURE_LIGHTS | FEATURE_DIRECTIONAL, .passes = LIT_PASSES},
+    {"a dim light", .desc = {SCENE_UNIT}, TRUE_METHOD, .look = {.lights = &dim_light, .light_count = 1},
+     .features = LIT | SPECULAR | FEATURE_LIGHTS, .passes = LIT_PASSES,
+     .left_out = "shadows: nobody asks for them"},
+    {"a mirror, and no shadow code", .desc = {SCENE_UNIT}, TRUE_METHOD,
+     .look = {.effects = {.reflections = 3}}, .features = LIT | SPECULAR | FEATURE_MIRROR,
+     .passes = LIT_PASSES, .left_out = "shadows: nobody asks for them"},
+    {"Fresnel and the sky", .desc = {SCENE_UNIT}, TRUE_METHOD,
+     .look = {.effects = {.index = 1.3, .environment = "sky"}},
+     .features = LIT | SPECULAR | FEATURE_MIRROR | FEATURE_FRESNEL | FEATURE_SKY, .passes = LIT_PASSES,
+     .left_out = "an environment's map: the sky is built in"},
+    {"a map", .desc = {SCENE_UNIT}, TRUE_METHOD, .look = {.effects = {.environment = "map.exr"}},
+     .features = LIT | SPECULAR | FEATURE_ENVIRONMENT, .passes = LIT_PASSES,
+     .left_out = "a built-in sky: the environment is a map"},
+    {"occlusion", .desc = {SCENE_UNIT}, TRUE_METHOD, .look = {.effects = {.occlusion_rays = 8}},
+     .features = LIT | SPECULAR | FEATURE_OCCLUSION, .passes = LIT_PASSES},
+    {"refraction without an index, and what it absorbs", .desc = {SCENE_UNIT}, TRUE_METHOD,
+     .look = {.effects = {.refractions = 2, .absorption = {0, 0, 2}, .occlusion_rays = 8}},
+     .features = LIT | SPECULAR | FEATURE_REFRACTION | FEATURE_ABSORPTION, .passes = LIT_PASSES,
+     .left_out = "occlusion: nothing is shaded: all is mirrored or goes through"},
+    {"a preset", .desc = {SCENE_UNIT}, TRUE_METHOD, .look = {.preset = "glass"},
+     .features = LIT | SPECULAR | FEATURE_DIRECTIONAL | FEATURE_MIRROR | FEATURE_FRESNEL |
+                 FEATURE_REFRACTION | FEATURE_SKY,
+     .passes = LIT_PASSES, .left_out = "absorption: its strength is 0"},
+    {"a preset, and by hand what it would change", .desc = {SCENE_UNIT},
+     .look = {.preset = "glass",
+              .set = MNS_LOOK_LIGHT | MNS_LOOK_REFLECTIONS | MNS_LOOK_REFRACTIONS | MNS_LOOK_INDEX |
+                     MNS_LOOK_ENVIRONMENT},
+     .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES},
     {"no balls", .features = POLY3 | LEAST, .passes = PLAIN_PASSES,
      .left_out = "core depth: there are no balls"},
     {"one ball", .desc = {.count = 1, .position = {.data = scene_row}}, .limits = &scene_llvmpipe,
@@ -271,6 +345,17 @@ static void what_is_not_there_is_left_out(void **state)
         {FEATURE_SPECULAR, "specular"},
         {FEATURE_SAMPLES, "samples beside the centre"},
         {FEATURE_TEXELS, "reading by texels"},
+        {FEATURE_LIGHTS, "several lights"},
+        {FEATURE_POINT_LIGHTS, "lights at a point"},
+        {FEATURE_SHADOWS, "shadows"},
+        {FEATURE_SOFT_SHADOWS, "soft shadows"},
+        {FEATURE_MIRROR, "mirroring"},
+        {FEATURE_FRESNEL, "Fresnel's share"},
+        {FEATURE_REFRACTION, "refraction"},
+        {FEATURE_ABSORPTION, "absorption"},
+        {FEATURE_OCCLUSION, "occlusion"},
+        {FEATURE_ENVIRONMENT, "an environment's map"},
+        {FEATURE_SKY, "a built-in sky"},
     };
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         mns_field *field = scene_field(&scenes[i]);
@@ -361,6 +446,96 @@ static void tiles_are_neither_gathered_nor_shuffled(void **state)
     mns_field_destroy(field);
 }
 
+static void a_method_says_which_effect_it_cannot_draw(void **state)
+{
+    (void)state;
+    static const struct {
+        mns_look look;
+        const char *word;
+    } cases[] = {
+        {{FROM_A_SIDE, .effects = {.shadows = true, .reflections = 1}}, "look: shadows: so far"},
+        {{.effects = {.reflections = 1}}, "look: mirroring"},
+        {{.effects = {.refractions = 1}}, "look: refraction"},
+        {{.effects = {.occlusion_rays = 1}}, "look: occlusion"},
+        {{.effects = {.environment = "sky"}}, "look: an environment"},
+        {{.lights = &point_light, .light_count = 1}, "look: lights"},
+    };
+    const mns_method methods[] = {MNS_METHOD_AUTO, MNS_METHOD_LIST, MNS_METHOD_TILE, MNS_METHOD_FBVH,
+                                  MNS_METHOD_BVH};
+    scene s = {"refused", .desc = {SCENE_UNIT}};
+    mns_field *field = scene_field(&s);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
+            mns_plan *plan = NULL;
+            mns_error error;
+            const mns_options options = {.method = methods[k]};
+            assert_int_equal(mns_plan_create(field, NULL, &cases[i].look, &options, NULL, &plan, &error),
+                             MNS_ERROR_UNSUPPORTED);
+            assert_null(plan);
+            assert_non_null(strstr(error.text, cases[i].word));
+            assert_non_null(strstr(error.text, "take the method reference"));
+        }
+    mns_field_destroy(field);
+}
+
+static void wrong_effects_are_refused(void **state)
+{
+    (void)state;
+    static const mns_light flat = {.kind = MNS_LIGHT_AREA}, bright = {.strength = -1}, odd = {.kind = 9},
+                           green = {.color = {0, 2, 0}};
+    static const struct {
+        mns_look look;
+        const char *word;
+        mns_status status;
+    } cases[] = {
+        {{.effects = {.reflections = 9}}, "9 reflections; take 0 to 8", MNS_ERROR_USAGE},
+        {{.effects = {.refractions = -1}}, "-1 refractions; take 0 to 16", MNS_ERROR_USAGE},
+        {{.effects = {.shadow_samples = 4097}}, "4097 shadow samples", MNS_ERROR_USAGE},
+        {{.effects = {.occlusion_rays = 4097}}, "4097 occlusion rays", MNS_ERROR_USAGE},
+        {{.effects = {.mirror = 1.1}}, "mirror 1.1", MNS_ERROR_USAGE},
+        {{.effects = {.transmission = -0.1}}, "transmission -0.1", MNS_ERROR_USAGE},
+        {{.effects = {.index = 0.9}}, "index of refraction 0.9", MNS_ERROR_USAGE},
+        {{.effects = {.absorption = {0, -1, 0}}}, "absorption -1", MNS_ERROR_USAGE},
+        {{.effects = {.occlusion_reach = -1}}, "reach -1", MNS_ERROR_USAGE},
+        {{.light_count = 1}, "no array", MNS_ERROR_USAGE},
+        {{.lights = two_lights, .light_count = 257}, "257 lights; at most 256", MNS_ERROR_UNSUPPORTED},
+        {{.lights = &flat, .light_count = 1}, "light 0: radius 0", MNS_ERROR_USAGE},
+        {{.lights = &bright, .light_count = 1}, "light 0: strength -1", MNS_ERROR_USAGE},
+        {{.lights = &odd, .light_count = 1}, "light 0: no kind 9", MNS_ERROR_USAGE},
+        {{.lights = &green, .light_count = 1}, "light 0: colours", MNS_ERROR_USAGE},
+        {{.preset = "mud"},
+         "no preset \"mud\"; expected one of plain clay water molecule glass",
+         MNS_ERROR_USAGE},
+    };
+    scene s = {"wrong", .desc = {SCENE_UNIT}};
+    mns_field *field = scene_field(&s);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mns_plan *plan = NULL;
+        mns_error error;
+        assert_int_equal(mns_plan_create(field, NULL, &cases[i].look, NULL, NULL, &plan, &error),
+                         cases[i].status);
+        assert_null(plan);
+        if (!strstr(error.text, cases[i].word)) fail_msg("%s: not said: %s", error.text, cases[i].word);
+    }
+    mns_field_destroy(field);
+}
+
+static void the_text_tells_the_effects(void **state)
+{
+    (void)state;
+    scene s = {"water", .desc = {SCENE_UNIT}, TRUE_METHOD,
+               .look = {.preset = "water", .effects = {.absorption = {1, 0.5, 0}, .seed = 7}}};
+    mns_field *field = scene_field(&s);
+    mns_plan *plan = scene_plan(&s, field);
+    assert_non_null(
+        strstr(mns_plan_text(plan),
+               "\neffects: 1 light, mirror 0 over 1 levels, index 1.333, transmission 0.75 through 4 "
+               "surfaces, absorption 1,0.5,0, environment sky, seed 7\n"));
+    assert_non_null(strstr(mns_plan_text(plan), " lit mirror fresnel refraction absorption sky\n"));
+    mns_plan_destroy(plan);
+    mns_field_destroy(field);
+}
+
 static void the_same_inputs_give_the_same_plan(void **state)
 {
     (void)state;
@@ -389,6 +564,9 @@ int main(void)
         cmocka_unit_test(the_text_names_the_features),
         cmocka_unit_test(the_text_names_the_method_tile),
         cmocka_unit_test(tiles_are_neither_gathered_nor_shuffled),
+        cmocka_unit_test(a_method_says_which_effect_it_cannot_draw),
+        cmocka_unit_test(wrong_effects_are_refused),
+        cmocka_unit_test(the_text_tells_the_effects),
         cmocka_unit_test(the_same_inputs_give_the_same_plan),
     };
     return cmocka_run_group_tests_name("plan", tests, NULL, NULL);

@@ -57,7 +57,7 @@ static void every_key_reaches_its_member(void **state)
     assert_int_equal(s->view.height, 480);
     const mns_look *look = &s->look;
     assert_int_equal(look->set, MNS_LOOK_COLOR | MNS_LOOK_BACKGROUND | MNS_LOOK_RANGE | MNS_LOOK_AMBIENT |
-                                    MNS_LOOK_DIFFUSE | MNS_LOOK_SPECULAR);
+                                    MNS_LOOK_DIFFUSE | MNS_LOOK_SPECULAR | MNS_LOOK_LIGHT);
     assert_int_equal(look->light, MNS_LIGHT_DIRECTIONAL);
     near3(look->light_direction, 1, 1, 0);
     near3(look->color, 1, 128 / 255.0, 0);
@@ -113,6 +113,79 @@ static void light_with_a_direction_alone_is_directional(void **state)
     mns_scene_destroy(s);
 }
 
+static void lights_say_what_they_are(void **state)
+{
+    (void)state;
+    mns_scene *s = parse("{\"lights\": [{}, {\"direction\": [0, 1, 0], \"strength\": 0.5}, "
+                         "{\"position\": [1, 2, 3], \"color\": \"#ff0000\"}, "
+                         "{\"kind\": \"area\", \"position\": [4, 5, 6], \"radius\": 0.25}]}");
+    const mns_light *light = s->look.lights;
+    assert_int_equal(s->look.light_count, 4);
+    assert_int_equal(s->look.set, MNS_LOOK_LIGHT);
+    assert_int_equal(light[0].kind, MNS_LIGHT_HEAD);
+    assert_int_equal(light[1].kind, MNS_LIGHT_DIRECTIONAL);
+    near3(light[1].direction, 0, 1, 0);
+    near(light[1].strength, 0.5);
+    assert_int_equal(light[2].kind, MNS_LIGHT_POINT);
+    near3(light[2].position, 1, 2, 3);
+    near3(light[2].color, 1, 0, 0);
+    assert_int_equal(light[3].kind, MNS_LIGHT_AREA);
+    near3((double[]){light[3].position[0], light[3].position[2], light[3].radius}, 4, 6, 0.25);
+    mns_scene_destroy(s);
+}
+
+static void effects_reach_their_members(void **state)
+{
+    (void)state;
+    mns_scene *s =
+        parse("{\"look\": \"water\", \"effects\": {\"shadows\": 4, \"reflections\": 2, \"refractions\": 3, "
+              "\"mirror\": 0, \"index\": 1.5, \"transmission\": 0.5, \"absorption\": [1, 2, 3], "
+              "\"occlusion\": {\"rays\": 8, \"reach\": 0.5}, \"environment\": \"sky.exr\", "
+              "\"seed\": 4294967295}}");
+    const mns_effects *e = &s->look.effects;
+    assert_string_equal(s->look.preset, "water");
+    assert_int_equal(s->look.set, MNS_LOOK_SHADOWS | MNS_LOOK_REFLECTIONS | MNS_LOOK_REFRACTIONS |
+                                      MNS_LOOK_MIRROR | MNS_LOOK_INDEX | MNS_LOOK_TRANSMISSION |
+                                      MNS_LOOK_ABSORPTION | MNS_LOOK_OCCLUSION | MNS_LOOK_ENVIRONMENT);
+    assert_true(e->shadows);
+    assert_int_equal(e->shadow_samples, 4);
+    assert_int_equal(e->reflections, 2);
+    assert_int_equal(e->refractions, 3);
+    near3((double[]){e->mirror, e->index, e->transmission}, 0, 1.5, 0.5);
+    near3(e->absorption, 1, 2, 3);
+    assert_int_equal(e->occlusion_rays, 8);
+    near(e->occlusion_reach, 0.5);
+    assert_string_equal(e->environment, "dir/sky.exr");
+    assert_true(e->seed == UINT32_MAX);
+    mns_scene_destroy(s);
+    s = parse("{\"effects\": {\"shadows\": false, \"occlusion\": 0, \"environment\": \"sky\"}}");
+    assert_false(s->look.effects.shadows);
+    assert_string_equal(s->look.effects.environment, "sky");
+    mns_scene_destroy(s);
+}
+
+static void wrong_lights_and_effects_are_named(void **state)
+{
+    (void)state;
+    refuse("{\"lights\": []}", MNS_ERROR_INPUT, "s.json: lights: a list: expected a list of 1 to 256 lights");
+    refuse("{\"lights\": [{}, {\"kind\": \"sun\"}]}", MNS_ERROR_INPUT,
+           "s.json: lights[1].kind: \"sun\": expected one of head directional point area");
+    refuse("{\"lights\": [{\"kind\": \"point\"}]}", MNS_ERROR_INPUT,
+           "s.json: lights[0]: an object: expected a light of this kind to have a position");
+    refuse("{\"lights\": [{\"kind\": \"area\", \"position\": [0, 0, 0]}]}", MNS_ERROR_INPUT,
+           "s.json: lights[0]: an object: expected an area light to have a radius");
+    refuse("{\"effects\": {\"reflections\": 9}}", MNS_ERROR_INPUT,
+           "s.json: effects.reflections: 9: expected a whole number from 0 to 8");
+    refuse("{\"effects\": {\"index\": 0.5}}", MNS_ERROR_INPUT,
+           "s.json: effects.index: 0.5: expected a number from 1 to 100, or 0");
+    refuse("{\"effects\": {\"occlusion\": {\"ray\": 1}}}", MNS_ERROR_INPUT,
+           "s.json: effects.occlusion.ray: unknown key; known: rays, reach");
+    refuse("{\"effects\": {\"shadows\": 0.5}}", MNS_ERROR_INPUT,
+           "s.json: effects.shadows: 0.5: expected true, false, or a whole number of samples from 1 to 4096");
+    refuse("{\"look\": \"mud\"}", MNS_ERROR_INPUT,
+           "s.json: look: \"mud\": expected one of plain clay water molecule glass");
+}
+
 static void background_can_be_written_in_each_way(void **state)
 {
     (void)state;
@@ -140,7 +213,8 @@ static void unknown_keys_are_named_by_their_path(void **state)
     refuse("{\"light\": {\"knd\": \"head\"}}", MNS_ERROR_INPUT,
            "s.json: light.knd: unknown key; known: kind, direction");
     refuse("{\"colour\": 1}", MNS_ERROR_INPUT,
-           "s.json: colour: unknown key; known: field, input, inputs, camera, light, material, background, "
+           "s.json: colour: unknown key; known: field, input, inputs, camera, light, lights, look, effects, "
+           "material, background, "
            "size");
     refuse("{\"camera\": {\"\": 1}}", MNS_ERROR_INPUT,
            "s.json: camera.: unknown key; known: eye, look_at, up, fov");
@@ -294,6 +368,9 @@ int main(void)
         cmocka_unit_test(files_lie_beside_the_scene_and_generators_stay),
         cmocka_unit_test(empty_scene_leaves_every_default),
         cmocka_unit_test(light_with_a_direction_alone_is_directional),
+        cmocka_unit_test(lights_say_what_they_are),
+        cmocka_unit_test(effects_reach_their_members),
+        cmocka_unit_test(wrong_lights_and_effects_are_named),
         cmocka_unit_test(background_can_be_written_in_each_way),
         cmocka_unit_test(unknown_keys_are_named_by_their_path),
         cmocka_unit_test(wrong_values_are_named_with_what_was_expected),

@@ -66,7 +66,12 @@ static struct argp_option *argp_rows(const option_table *table)
     for (size_t i = 0; i < table->count; i++) {
         const option_row *row = &table->rows[i];
         if (!row->name) group++;
-        rows[i] = (struct argp_option){row->name, row->name ? row_key(table, i) : 0, row->value, 0, row->doc,
+        bool may = row->value && row->value[0] == '?';
+        rows[i] = (struct argp_option){row->name,
+                                       row->name ? row_key(table, i) : 0,
+                                       may ? row->value + 1 : row->value,
+                                       may ? OPTION_ARG_OPTIONAL : 0,
+                                       row->doc,
                                        group};
     }
     rows[table->count] = (struct argp_option){"help", KEY_HELP, NULL, 0, "print this", -1};

@@ -7,6 +7,8 @@
 #include "compare/images.h"
 #include "meniscus.h"
 
+enum { APP_LIGHTS = 32 };
+
 /* All that a command was told. Strings point into argv or into `scene`. */
 typedef struct app_options {
     const char *const *inputs;
@@ -14,6 +16,8 @@ typedef struct app_options {
     mns_input_options field;
     mns_view view;
     mns_look look;
+    mns_light lights[APP_LIGHTS]; /* those of --light, where it was given */
+    size_t light_count;
     mns_options draw;
     mns_backend backend;
     const char *output, *aov, *heat, *stats; /* NULL: not asked for */
@@ -43,7 +47,7 @@ typedef mns_status option_apply(app_options *o, const char *name, const char *te
 typedef struct option_row {
     const char *name;  /* NULL: a heading, which is `doc` */
     char letter;       /* 0: none */
-    const char *value; /* NULL: takes none */
+    const char *value; /* NULL: takes none; "?N": may have one, N */
     const char *doc;
     option_apply *apply;
 } option_row;

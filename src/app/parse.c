@@ -29,6 +29,19 @@ mns_status parse_numbers(const char *option, const char *text, char separator, s
     return MNS_OK;
 }
 
+mns_status parse_point(const char *name, const char *text, double v[3], mns_error *error)
+{
+    return parse_numbers(name, text, ',', 3, v, "X,Y,Z, three numbers", error);
+}
+
+mns_status parse_direction(const char *name, const char *text, double v[3], mns_error *error)
+{
+    mns_status status = parse_point(name, text, v, error);
+    if (!status && v[0] == 0 && v[1] == 0 && v[2] == 0)
+        return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected a direction, not all zeros", name, text);
+    return status;
+}
+
 mns_status parse_positive(const char *option, const char *text, double *value, mns_error *error)
 {
     static const char expected[] = "a number above 0";

@@ -18,6 +18,9 @@ typedef struct parse_frames_range {
 /* `count` finite numbers with `separator` between them. */
 mns_status parse_numbers(const char *option, const char *text, char separator, size_t count, double *values,
                          const char *expected, mns_error *error);
+/* "X,Y,Z"; and not all of them 0. */
+mns_status parse_point(const char *name, const char *text, double v[3], mns_error *error);
+mns_status parse_direction(const char *name, const char *text, double v[3], mns_error *error);
 /* One finite number above 0. */
 mns_status parse_positive(const char *option, const char *text, double *value, mns_error *error);
 /* One finite number of 0 or more. */

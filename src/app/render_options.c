@@ -2,6 +2,7 @@
 #include "app/render.h"
 
 #include "app/app.h"
+#include "app/look_options.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -12,19 +13,6 @@
 mns_status option_size(app_options *o, const char *name, const char *text, mns_error *error)
 {
     return parse_size(name, text, &o->view.width, &o->view.height, error);
-}
-
-static mns_status parse_point(const char *name, const char *text, double v[3], mns_error *error)
-{
-    return parse_numbers(name, text, ',', 3, v, "X,Y,Z, three numbers", error);
-}
-
-static mns_status parse_direction(const char *name, const char *text, double v[3], mns_error *error)
-{
-    mns_status status = parse_point(name, text, v, error);
-    if (!status && v[0] == 0 && v[1] == 0 && v[2] == 0)
-        return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected a direction, not all zeros", name, text);
-    return status;
 }
 
 mns_status option_eye(app_options *o, const char *name, const char *text, mns_error *error)
@@ -51,122 +39,6 @@ mns_status option_fov(app_options *o, const char *name, const char *text, mns_er
     if (!status && !(o->view.fov > 0 && o->view.fov < 180))
         return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected %s", name, text, expected);
     return status;
-}
-
-/* ---- Light and material
- * ---------------------------------------------------------------------------------------- */
-
-static mns_status option_light(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    if (strcmp(text, "head") == 0) {
-        o->look.light = MNS_LIGHT_HEAD;
-        return MNS_OK;
-    }
-    o->look.light = MNS_LIGHT_DIRECTIONAL;
-    if (parse_direction(name, text, o->look.light_direction, error))
-        return app_fail(error, MNS_ERROR_USAGE,
-                        "%s %.80s: expected head, or X,Y,Z, a direction towards the light", name, text);
-    return MNS_OK;
-}
-
-static const char *shading_name(int i)
-{
-    return i == MNS_SHADING_CEL ? "cel" : "smooth";
-}
-
-static mns_status option_shading(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    int index;
-    mns_status status = parse_name(name, text, shading_name, MNS_SHADING_CEL + 1, &index, error);
-    if (!status) o->look.shading = (mns_shading)index;
-    return status;
-}
-
-static mns_status option_cel_bands(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    return parse_count(name, text, 64, &o->look.cel_bands, error);
-}
-
-static mns_status parse_color(const char *name, const char *text, double rgba[4], mns_error *error)
-{
-    mns_error what;
-    if (!mns_color_parse(text, rgba, &what)) return MNS_OK;
-    return app_fail(error, MNS_ERROR_USAGE, "%s: %s", name, what.text);
-}
-
-static mns_status option_color(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    double rgba[4];
-    mns_status status = parse_color(name, text, rgba, error);
-    if (status) return status;
-    if (rgba[3] != 1)
-        return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected an opaque colour, R,G,B or #rrggbb", name,
-                        text);
-    memcpy(o->look.color, rgba, sizeof o->look.color);
-    o->look.set |= MNS_LOOK_COLOR;
-    o->look.color_by = NULL;
-    return MNS_OK;
-}
-
-static mns_status option_background(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    o->look.set |= MNS_LOOK_BACKGROUND;
-    return parse_color(name, text, o->look.background, error);
-}
-
-static mns_status option_color_by(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    if (!*text) return app_fail(error, MNS_ERROR_USAGE, "%s: expected the name of a column", name);
-    if (o->range_is_scenes) o->look.set &= ~(unsigned)MNS_LOOK_RANGE;
-    o->look.color_by = text;
-    return MNS_OK;
-}
-
-static const char *color_map_name(int i)
-{
-    return mns_color_map_name((mns_color_map)i);
-}
-
-static mns_status option_color_map(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    int index;
-    mns_status status = parse_name(name, text, color_map_name, MNS_COLOR_MAP_COUNT, &index, error);
-    if (!status) o->look.color_map = (mns_color_map)index;
-    return status;
-}
-
-static mns_status option_color_range(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    static const char expected[] = "LO:HI, two numbers, the lower first";
-    o->look.set |= MNS_LOOK_RANGE;
-    o->range_is_scenes = false;
-    mns_status status = parse_numbers(name, text, ':', 2, o->look.range, expected, error);
-    if (!status && !(o->look.range[0] < o->look.range[1]))
-        return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected %s", name, text, expected);
-    return status;
-}
-
-static mns_status option_ambient(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    o->look.set |= MNS_LOOK_AMBIENT;
-    return parse_weight(name, text, &o->look.ambient, error);
-}
-
-static mns_status option_diffuse(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    o->look.set |= MNS_LOOK_DIFFUSE;
-    return parse_weight(name, text, &o->look.diffuse, error);
-}
-
-static mns_status option_specular(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    o->look.set |= MNS_LOOK_SPECULAR;
-    return parse_weight(name, text, &o->look.specular, error);
-}
-
-static mns_status option_shininess(app_options *o, const char *name, const char *text, mns_error *error)
-{
-    return parse_positive(name, text, &o->look.shininess, error);
 }
 
 /* ---- Output and measurement
@@ -276,19 +148,8 @@ static const option_row ROWS[] = {
     {"aa", 0, "N", "samples a pixel for colour, 1 to 64 (default 1)", option_samples},
     OPTIONS_OF_FIELD,
     OPTIONS_OF_CAMERA,
-    HEADING("Look:"),
-    {"light", 0, "head|X,Y,Z", "at the eye, or from that direction (default head)", option_light},
-    {"shading", 0, "NAME", "smooth (the default) or cel", option_shading},
-    {"cel-bands", 0, "N", "bands of cel shading, 1 to 64 (default 3)", option_cel_bands},
-    {"color", 0, "COLOR", "the surface, R,G,B in [0, 1] or #rrggbb (default 0.35,0.62,0.86)", option_color},
-    {"color-by", 0, "NAME", "colour by a column of the input, such as element", option_color_by},
-    {"color-map", 0, "NAME", "viridis (the default), magma, inferno, plasma or cividis", option_color_map},
-    {"color-range", 0, "LO:HI",
-     "values at the map's ends (default: the column's, of a sequence those of frame 0)", option_color_range},
-    {"ambient", 0, "X", "default 0.15", option_ambient},
-    {"diffuse", 0, "X", "default 0.85", option_diffuse},
-    {"specular", 0, "X", "default 0.25", option_specular},
-    {"shininess", 0, "X", "exponent of the highlight (default 40)", option_shininess},
+    OPTIONS_OF_LOOK,
+    OPTIONS_OF_EFFECTS,
     HEADING("Method:"),
     {"method", 0, "NAME",
      "auto (the default: the plan picks), list, tile (lists a tile of pixels long, binned on the CPU: "

@@ -63,6 +63,8 @@ static json_t *counts(const stats_frame *frame)
     json_object_set_new(object, "pixels", json_count((uint64_t)s->width * (uint64_t)s->height));
     json_object_set_new(object, "pixels_hit", json_count(s->pixels_hit));
     json_object_set_new(object, "pixels_undecided", json_count(s->pixels_undecided));
+    json_object_set_new(object, "effects_rays", json_count(s->effects_rays));
+    json_object_set_new(object, "effects_undecided", json_count(s->effects_undecided));
     json_object_set_new(object, "list_nodes", json_count(s->list_nodes));
     json_object_set_new(object, "tiles", json_count(s->tiles));
     json_object_set_new(object, "passes", json_count(s->passes));

@@ -1,4 +1,5 @@
-/* Reads back an EXR of ours: one part of scan lines, deflated or plain, with all of our float32 channels. */
+/* Reads an EXR of scan lines: its header, its size, its rows; and whole one of ours, deflated or plain, with
+ * all of our float32 channels. */
 #include "base/memory.h"
 #include "image/exr.h"
 
@@ -10,14 +11,6 @@
 
 /* Deflate makes at most 1032 bytes of one (RFC 1951: a match of 258 bytes in 2 bits); doubled for safety. */
 enum { INFLATION_MAX = 2064 };
-
-typedef struct image_reader {
-    const char *path;
-    image_stream stream;
-    exr_context_t context;
-    exr_attr_box2i_t window;
-    mns_error *error;
-} image_reader;
 
 static void on_error(exr_const_context_t context, exr_result_t result, const char *message)
 {
@@ -55,7 +48,7 @@ static mns_status cannot_read(const char *path, int code, mns_error *error)
                        strerror_r(code, reason, sizeof reason));
 }
 
-static mns_status damaged(const image_reader *reader, exr_result_t result)
+mns_status image_exr_damaged(const image_reader *reader, exr_result_t result)
 {
     const char *reason = reader->stream.message;
     if (reader->stream.code) return cannot_read(reader->path, reader->stream.code, reader->error);
@@ -86,40 +79,46 @@ static mns_status open_file(image_reader *reader)
                        "%s: not an EXR file: expected the bytes 76 2f 31 01 at its beginning", reader->path);
 }
 
-static mns_status read_header(image_reader *reader)
+static mns_status read_header(image_reader *reader, bool strict)
 {
     exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
     int parts = 0;
     exr_storage_t storage = EXR_STORAGE_DEEP_SCANLINE;
-    exr_compression_t compression = EXR_COMPRESSION_NONE;
     initializer.error_handler_fn = on_error;
     initializer.user_data = &reader->stream;
     initializer.read_fn = on_read;
     initializer.size_fn = on_size;
-    initializer.flags = EXR_CONTEXT_FLAG_STRICT_HEADER | EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    initializer.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    if (strict) initializer.flags |= EXR_CONTEXT_FLAG_STRICT_HEADER;
     exr_result_t result = exr_start_read(&reader->context, reader->path, &initializer);
     if (result == EXR_ERR_SUCCESS) result = exr_get_count(reader->context, &parts);
     if (result == EXR_ERR_SUCCESS) result = exr_get_storage(reader->context, 0, &storage);
-    if (result == EXR_ERR_SUCCESS) result = exr_get_compression(reader->context, 0, &compression);
+    if (result == EXR_ERR_SUCCESS) result = exr_get_compression(reader->context, 0, &reader->compression);
     if (result == EXR_ERR_SUCCESS) result = exr_get_data_window(reader->context, 0, &reader->window);
-    if (result != EXR_ERR_SUCCESS) return damaged(reader, result);
+    if (result != EXR_ERR_SUCCESS) return image_exr_damaged(reader, result);
     if (parts != 1 || storage != EXR_STORAGE_SCANLINE)
         return status_fail(reader->error, MNS_ERROR_INPUT,
                            "%s: expected one part of scan lines, as meniscus writes it", reader->path);
-    if (compression > EXR_COMPRESSION_ZIP) /* none, RLE, ZIPS, ZIP */
-        return status_fail(reader->error, MNS_ERROR_INPUT,
-                           "%s: compressed by OpenEXR's method %d; expected ZIP, as meniscus writes it",
-                           reader->path, (int)compression);
     return MNS_OK;
 }
 
-/* The header's size is believed only where the file's own length can hold that many pixels. */
-static mns_status read_size(const image_reader *reader, int *width, int *height)
+mns_status image_exr_open(image_reader *reader, bool strict)
+{
+    mns_status status = open_file(reader);
+    return status ? status : read_header(reader, strict);
+}
+
+void image_exr_close(image_reader *reader)
+{
+    if (reader->context) exr_finish(&reader->context);
+    if (reader->stream.file) fclose(reader->stream.file);
+}
+
+mns_status image_exr_size(const image_reader *reader, int pixel_bytes, int *width, int *height)
 {
     int64_t w = (int64_t)reader->window.max.x - reader->window.min.x + 1;
     int64_t h = (int64_t)reader->window.max.y - reader->window.min.y + 1;
     bool in_range = w >= 1 && h >= 1 && w <= IMAGE_SIDE_MAX && h <= IMAGE_SIDE_MAX;
-    int64_t pixel_bytes = (IMAGE_CHANNELS - 1) * (int64_t)sizeof(float); /* at least */
     if (!in_range || w * h > reader->stream.size * INFLATION_MAX / pixel_bytes)
         return status_fail(reader->error, MNS_ERROR_INPUT,
                            "%s: announces %lld x %lld pixels, which its %lld bytes cannot hold", reader->path,
@@ -128,27 +127,30 @@ static mns_status read_size(const image_reader *reader, int *width, int *height)
     return MNS_OK;
 }
 
-/* NULL where the file has no channel of that name. */
-static const exr_attr_chlist_entry_t *find_entry(const exr_attr_chlist_t *list, const char *name)
+const exr_attr_chlist_entry_t *image_exr_entry(const exr_attr_chlist_t *list, const char *name)
 {
     for (int i = 0; i < list->num_channels; i++)
         if (!strcmp(list->entries[i].name.str, name)) return &list->entries[i];
     return NULL;
 }
 
-/* Are all our channels there, as we write them? `has_error` tells whether the one that may lack is. */
-static mns_status check_channels(const image_reader *reader, bool *has_error)
+/* Are all our channels there, as we write them? Planes are made for the optional ones that are. */
+static mns_status check_channels(const image_reader *reader, mns_image *image, image_channels *channels)
 {
     const exr_attr_chlist_t *list = NULL;
-    const mns_image names_only = {0};
-    image_channels channels;
     exr_result_t result = exr_get_channels(reader->context, 0, &list);
-    if (result != EXR_ERR_SUCCESS) return damaged(reader, result);
-    *has_error = find_entry(list, IMAGE_ERROR_CHANNEL) != NULL;
-    image_list_channels(&names_only, *has_error, &channels);
-    for (int i = 0; i < channels.count; i++) {
-        const char *name = channels.channel[i].name;
-        const exr_attr_chlist_entry_t *found = find_entry(list, name);
+    if (result != EXR_ERR_SUCCESS) return image_exr_damaged(reader, result);
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    for (int i = 0; i < IMAGE_OPTIONAL; i++) {
+        if (!image_exr_entry(list, image_optional_names[i])) continue;
+        float **plane = image_optional(image, i);
+        *plane = memory_array(pixels, sizeof **plane);
+        if (!*plane) return status_no_memory(reader->error, "reading an EXR");
+    }
+    image_list_channels(image, channels);
+    for (int i = 0; i < channels->count; i++) {
+        const char *name = channels->channel[i].name;
+        const exr_attr_chlist_entry_t *found = image_exr_entry(list, name);
         if (!found)
             return status_fail(reader->error, MNS_ERROR_INPUT,
                                "%s: lacks the channel %s; meniscus writes it with --aov", reader->path, name);
@@ -175,45 +177,41 @@ static void aim(exr_decode_pipeline_t *decoder, int width, const image_channels 
     }
 }
 
-static mns_status read_rows(const image_reader *reader, const mns_image *image,
-                            const image_channels *channels)
+mns_status image_exr_rows(const image_reader *reader, int width, int height, const image_channels *channels)
 {
     exr_decode_pipeline_t decoder = EXR_DECODE_PIPELINE_INITIALIZER;
     exr_chunk_info_t chunk;
     int32_t lines = 0;
     exr_result_t result = exr_get_scanlines_per_chunk(reader->context, 0, &lines);
-    for (int row = 0; row < image->height && result == EXR_ERR_SUCCESS; row += lines) {
+    for (int row = 0; row < height && result == EXR_ERR_SUCCESS; row += lines) {
         result = exr_read_scanline_chunk_info(reader->context, 0, reader->window.min.y + row, &chunk);
         if (result != EXR_ERR_SUCCESS) break;
         result = row ? exr_decoding_update(reader->context, 0, &chunk, &decoder)
                      : exr_decoding_initialize(reader->context, 0, &chunk, &decoder);
         if (result != EXR_ERR_SUCCESS) break;
-        aim(&decoder, image->width, channels, row);
+        aim(&decoder, width, channels, row);
         if (!row) result = exr_decoding_choose_default_routines(reader->context, 0, &decoder);
         if (result == EXR_ERR_SUCCESS) result = exr_decoding_run(reader->context, 0, &decoder);
     }
     exr_decoding_destroy(reader->context, &decoder);
-    return result == EXR_ERR_SUCCESS ? MNS_OK : damaged(reader, result);
+    return result == EXR_ERR_SUCCESS ? MNS_OK : image_exr_damaged(reader, result);
 }
 
 static mns_status read_image(image_reader *reader, mns_image **image)
 {
+    enum { PIXEL_BYTES = 10 * (int)sizeof(float) };
     image_channels channels;
     int width = 0, height = 0;
-    bool has_error = false;
     mns_image *made = NULL;
-    mns_status status = open_file(reader);
-    if (status == MNS_OK) status = read_header(reader);
-    if (status == MNS_OK) status = read_size(reader, &width, &height);
-    if (status == MNS_OK) status = check_channels(reader, &has_error);
+    mns_status status = image_exr_open(reader, true);
+    if (status == MNS_OK && reader->compression > EXR_COMPRESSION_ZIP) /* none, RLE, ZIPS, ZIP */
+        status = status_fail(reader->error, MNS_ERROR_INPUT,
+                             "%s: compressed by OpenEXR's method %d; expected ZIP, as meniscus writes it",
+                             reader->path, (int)reader->compression);
+    if (status == MNS_OK) status = image_exr_size(reader, PIXEL_BYTES, &width, &height);
     if (status == MNS_OK) status = image_create(width, height, &made, reader->error);
-    if (status != MNS_OK) return status;
-    if (has_error) {
-        made->t_error = memory_array((size_t)width * (size_t)height, sizeof *made->t_error);
-        if (!made->t_error) status = status_no_memory(reader->error, "reading an EXR");
-    }
-    image_list_channels(made, has_error, &channels);
-    if (status == MNS_OK) status = read_rows(reader, made, &channels);
+    if (status == MNS_OK) status = check_channels(reader, made, &channels);
+    if (status == MNS_OK) status = image_exr_rows(reader, width, height, &channels);
     if (status == MNS_OK)
         *image = made;
     else
@@ -225,7 +223,6 @@ mns_status mns_image_read(const char *path, mns_image **image, mns_error *error)
 {
     image_reader reader = {.path = path, .error = error};
     mns_status status = read_image(&reader, image);
-    if (reader.context) exr_finish(&reader.context);
-    if (reader.stream.file) fclose(reader.stream.file);
+    image_exr_close(&reader);
     return status;
 }

@@ -82,7 +82,7 @@ mns_status image_write_exr(const mns_image *image, FILE *file, const char *path,
     initializer.error_handler_fn = on_error;
     initializer.user_data = &stream;
     initializer.write_fn = on_write;
-    image_list_channels(image, image->t_error != NULL, &channels);
+    image_list_channels(image, &channels);
     exr_result_t result = exr_start_write(&context, path, EXR_WRITE_FILE_DIRECTLY, &initializer);
     if (result == EXR_ERR_SUCCESS) result = write_header(context, image, &channels);
     if (result == EXR_ERR_SUCCESS) result = write_rows(context, image, &channels);

@@ -39,6 +39,11 @@ void mns_image_destroy(mns_image *image)
     free(image->certain);
     free(image->t_error);
     free(image->work);
+    free(image->shadow);
+    free(image->occlusion);
+    free(image->mirror_t);
+    free(image->refract_t);
+    free(image->effects_certain);
     free(image);
 }
 

@@ -4,15 +4,41 @@
 #include <stdlib.h>
 
 static const char *const feature_names[FEATURE_COUNT] = {
-    [5] = "radii",        [6] = "strengths",  [7] = "core",         [8] = "core_radii",  [9] = "paper",
-    [10] = "points",      [11] = "quads",     [12] = "eye_in_ball", [13] = "eye_inside", [14] = "far",
-    [15] = "host",        [16] = "shuffle",   [17] = "colors",      [18] = "labels",     [19] = "cel",
-    [20] = "directional", [21] = "specular",  [22] = "samples",     [23] = "clip_zero",  [24] = "texels",
-    [25] = "flat_cores",  [26] = "reference", [27] = "tiles",       [28] = "tree",       [29] = "overlaps",
-    [30] = "counters",    [31] = "eye_on",
+    [5] = "radii",       [6] = "strengths",     [7] = "core",        [8] = "core_radii",
+    [9] = "paper",       [10] = "points",       [11] = "quads",      [12] = "eye_in_ball",
+    [13] = "eye_inside", [14] = "far",          [15] = "host",       [16] = "shuffle",
+    [17] = "colors",     [18] = "labels",       [19] = "cel",        [20] = "directional",
+    [21] = "specular",   [22] = "samples",      [23] = "clip_zero",  [24] = "texels",
+    [25] = "flat_cores", [26] = "reference",    [27] = "tiles",      [28] = "tree",
+    [29] = "overlaps",   [30] = "counters",     [31] = "eye_on",     [32] = "lit",
+    [33] = "lights",     [34] = "point_lights", [35] = "shadows",    [36] = "soft_shadows",
+    [37] = "mirror",     [38] = "fresnel",      [39] = "refraction", [40] = "absorption",
+    [41] = "occlusion",  [42] = "environment",  [43] = "sky",
 };
 
 static const char *const solver_names[] = {"exact", "cubic", "cubic-monomial", "secant"};
+
+/* The numbers of the effects that are there. */
+static void print_effects(FILE *out, const mns_plan *plan)
+{
+    const mns_effects *e = &plan->look.effects;
+    uint64_t f = plan->features;
+    if (!(f & FEATURE_LIT)) return;
+    fprintf(out, "\neffects: %zu light%s", plan->look.light_count, plan->look.light_count == 1 ? "" : "s");
+    if (f & FEATURE_SHADOWS) fprintf(out, ", shadows");
+    if (f & FEATURE_SOFT_SHADOWS) fprintf(out, " by %d rays a sphere", e->shadow_samples);
+    if (f & FEATURE_MIRROR) fprintf(out, ", mirror %g over %d levels", e->mirror, e->reflections);
+    if (f & FEATURE_FRESNEL) fprintf(out, ", index %g", e->index);
+    if (f & FEATURE_REFRACTION)
+        fprintf(out, ", transmission %g through %d surfaces", e->transmission, e->refractions);
+    if (f & FEATURE_ABSORPTION)
+        fprintf(out, ", absorption %g,%g,%g", e->absorption[0], e->absorption[1], e->absorption[2]);
+    if (f & FEATURE_OCCLUSION)
+        fprintf(out, ", occlusion by %d rays of length %g", e->occlusion_rays, e->occlusion_reach);
+    if (f & FEATURE_SKY) fprintf(out, ", environment sky");
+    if (f & FEATURE_ENVIRONMENT) fprintf(out, ", environment %s", plan->environment);
+    fprintf(out, ", seed %lu", (unsigned long)e->seed);
+}
 
 static void print_plan(FILE *out, const mns_plan *plan, const mns_field *field)
 {
@@ -42,6 +68,7 @@ static void print_plan(FILE *out, const mns_plan *plan, const mns_field *field)
         if (plan->features >> bit & 1 && feature_names[bit]) fprintf(out, " %s", feature_names[bit]);
     fprintf(out, "\npasses:");
     for (size_t i = 0; i < plan->pass_count; i++) fprintf(out, " %s", plan->pass[i]);
+    print_effects(out, plan);
     if (plan->domain.count) fprintf(out, "\nwarnings, outside the stated domain:");
     for (size_t i = 0; i < plan->domain.count; i++) fprintf(out, "\n  %s", plan->domain.line[i]);
     fprintf(out, "\nleft out:\n");

@@ -12,7 +12,8 @@ static bool finite3(const double v[3])
 static mns_status check(const mns_look *look, mns_error *error)
 {
     if (look->light != MNS_LIGHT_HEAD && look->light != MNS_LIGHT_DIRECTIONAL)
-        return status_fail(error, MNS_ERROR_USAGE, "look: no light of kind %d; take head or directional",
+        return status_fail(error, MNS_ERROR_USAGE,
+                           "look: no light of kind %d; take head or directional, or others by lights",
                            look->light);
     if (!finite3(look->light_direction))
         return status_fail(error, MNS_ERROR_USAGE, "look: the light's direction must be finite");
@@ -37,7 +38,7 @@ static mns_status check(const mns_look *look, mns_error *error)
 
 static void resolve_defaults(mns_look *look)
 {
-    static const double color[3] = {0.35, 0.62, 0.86}, white[4] = {1, 1, 1, 1}, light[3] = {1, 2, 1.5};
+    static const double color[3] = {0.35, 0.62, 0.86}, white[4] = {1, 1, 1, 1};
     if (!(look->set & MNS_LOOK_COLOR)) memcpy(look->color, color, sizeof color);
     if (!(look->set & MNS_LOOK_BACKGROUND)) memcpy(look->background, white, sizeof white);
     if (!(look->set & MNS_LOOK_AMBIENT)) look->ambient = 0.15;
@@ -45,8 +46,6 @@ static void resolve_defaults(mns_look *look)
     if (!(look->set & MNS_LOOK_SPECULAR)) look->specular = 0.25;
     if (look->shininess == 0) look->shininess = 40;
     if (look->cel_bands == 0) look->cel_bands = 3;
-    if (vec3_length(vec3_load(look->light_direction)) == 0)
-        memcpy(look->light_direction, light, sizeof light);
 }
 
 /* The column to colour by: `color_by` is its name; "element" also finds a PDB's or XYZ's element column. */
@@ -77,14 +76,18 @@ static mns_status find_column(mns_plan *plan, const mns_field *field, mns_error 
 mns_status plan_look(const mns_look *look, const mns_field *field, mns_plan *plan, mns_error *error)
 {
     plan->look = look ? *look : (mns_look){0};
+    const char *preset = plan->look.preset;
     mns_status status = check(&plan->look, error);
+    if (!status && preset && *preset) status = mns_look_preset(preset, &plan->look, error);
+    plan->look.preset = NULL; /* was borrowed for the call */
     if (status) return status;
     resolve_defaults(&plan->look);
+    status = plan_effects(plan, field, error);
+    if (status) return status;
     if (plan->look.color_by && plan->look.color_by[0] && field->p.count)
         status = find_column(plan, field, error);
     plan->look.color_by = NULL; /* was borrowed for the call */
     if (plan->look.shading == MNS_SHADING_CEL) plan->features |= FEATURE_CEL;
-    if (plan->look.light == MNS_LIGHT_DIRECTIONAL) plan->features |= FEATURE_DIRECTIONAL;
     if (plan->look.specular > 0) plan->features |= FEATURE_SPECULAR;
     return status;
 }

@@ -231,8 +231,11 @@ void plan_look_left_out(mns_plan *plan)
     if (!(plan->features & FEATURE_COLORS)) plan_leave_out(plan, "colours of balls", "one colour for all");
     if (!(plan->features & FEATURE_CEL)) plan_leave_out(plan, "cel bands", "smooth shading");
     if (!(plan->features & FEATURE_DIRECTIONAL))
-        plan_leave_out(plan, "a light of its own", "the light is at the eye");
+        plan_leave_out(plan, "a light of its own",
+                       plan->features & FEATURE_POINT_LIGHTS ? "every light is at the eye or at a point"
+                                                             : "the light is at the eye");
     if (!(plan->features & FEATURE_SPECULAR)) plan_leave_out(plan, "specular", "its strength is 0");
+    plan_effects_left_out(plan);
 }
 
 static void plan_rest(mns_plan *plan, size_t balls, bool host)
@@ -363,6 +366,7 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
     plan_facts_of(field, &plan->frame, &plan->facts);
     domain_check(field, plan->facts.eye_distance, plan->facts.farthest, &plan->domain);
     status = plan_look(look, field, plan, error);
+    if (!status) status = plan_effects_check(plan, error);
     if (!status) status = check_size(plan, error);
     if (!status)
         status = plan->options.method == MNS_METHOD_REFERENCE ? plan_reference(plan, field, host, error)
@@ -392,6 +396,8 @@ void mns_plan_destroy(mns_plan *plan)
 {
     if (!plan) return;
     free(plan->text);
+    free(plan->light);
+    free(plan->environment);
     free(plan);
 }
 

@@ -32,16 +32,28 @@
 #define FEATURE_TEXELS      (UINT64_C(1) << 24) /* balls and lists are read as texels */
 #define FEATURE_FLAT_CORES                                                                                   \
     (UINT64_C(1) << 25) /* core spheres laid down as flat squares, without a fragment shader */
-#define FEATURE_REFERENCE (UINT64_C(1) << 26) /* traced on the CPU; nothing but colours is left to GL */
-#define FEATURE_TILES     (UINT64_C(1) << 27) /* lists a tile of pixels long, binned on the CPU */
-#define FEATURE_TREE      (UINT64_C(1) << 28) /* traced through a tree of boxes */
-#define FEATURE_OVERLAPS  (UINT64_C(1) << 29) /* whose leaves overlap */
-#define FEATURE_COUNTERS  (UINT64_C(1) << 30) /* a ray's work is counted */
-#define FEATURE_EYE_ON    (UINT64_C(1) << 31) /* f(eye) = L: rays take the side just after */
-enum { FEATURE_COUNT = 32 };
+#define FEATURE_REFERENCE    (UINT64_C(1) << 26) /* traced on the CPU; nothing but colours is left to GL */
+#define FEATURE_TILES        (UINT64_C(1) << 27) /* lists a tile of pixels long, binned on the CPU */
+#define FEATURE_TREE         (UINT64_C(1) << 28) /* traced through a tree of boxes */
+#define FEATURE_OVERLAPS     (UINT64_C(1) << 29) /* whose leaves overlap */
+#define FEATURE_COUNTERS     (UINT64_C(1) << 30) /* a ray's work is counted */
+#define FEATURE_EYE_ON       (UINT64_C(1) << 31) /* f(eye) = L: rays take the side just after */
+#define FEATURE_LIT          (UINT64_C(1) << 32) /* some of those below: colours are made before the shade pass */
+#define FEATURE_LIGHTS       (UINT64_C(1) << 33) /* several lights, or one with a colour or a strength */
+#define FEATURE_POINT_LIGHTS (UINT64_C(1) << 34) /* some light stands at a point: POINT or AREA */
+#define FEATURE_SHADOWS      (UINT64_C(1) << 35)
+#define FEATURE_SOFT_SHADOWS (UINT64_C(1) << 36) /* of some light that is a sphere */
+#define FEATURE_MIRROR       (UINT64_C(1) << 37) /* some share is mirrored; by rays, where reflections > 0 */
+#define FEATURE_FRESNEL      (UINT64_C(1) << 38) /* it hangs on the angle; and what passes through is bent */
+#define FEATURE_REFRACTION   (UINT64_C(1) << 39) /* some share passes through */
+#define FEATURE_ABSORPTION   (UINT64_C(1) << 40) /* and is dimmed on its way */
+#define FEATURE_OCCLUSION    (UINT64_C(1) << 41)
+#define FEATURE_ENVIRONMENT  (UINT64_C(1) << 42) /* a map in the place of the background */
+#define FEATURE_SKY          (UINT64_C(1) << 43) /* the built-in sky in its place */
+enum { FEATURE_COUNT = 44 };
 
 enum { PLAN_MOST = 16 }; /* passes; parts left out are at most PLAN_PARTS */
-enum { PLAN_PARTS = 24 };
+enum { PLAN_PARTS = 40 };
 
 /* What the decisions hang on; see plan_facts_of. */
 typedef struct plan_facts {
@@ -73,7 +85,9 @@ struct mns_plan {
     double reach;        /* distance from the origin of the farthest ray start */
     double depth_range;  /* largest effective distance beyond the plane */
     double core_ratio;   /* core radius over R of every ball, where CORE without CORE_RADII */
-    mns_look look;       /* resolved */
+    mns_look look;       /* resolved; its lights are those of `light` */
+    mns_light *light;    /* the plan's own, at least one */
+    char *environment;   /* a map's file, where ENVIRONMENT */
     size_t color_column; /* where COLORS */
     double color_range[2];
     size_t ball_floats; /* a ball in the GPU's buffer */
@@ -96,6 +110,14 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
 
 /* Fills view-independent defaults of a look and checks it against the field's columns. */
 mns_status plan_look(const mns_look *look, const mns_field *field, mns_plan *plan, mns_error *error);
+
+/* Checks the lights and effects of a look, fills their defaults, copies what was borrowed, and finds which of
+ * them do anything. Errors: USAGE, MEMORY, UNSUPPORTED. */
+mns_status plan_effects(mns_plan *plan, const mns_field *field, mns_error *error);
+/* What of the effects is left out, and why. */
+void plan_effects_left_out(mns_plan *plan);
+/* Whether the method can draw the effects. Errors: UNSUPPORTED. */
+mns_status plan_effects_check(const mns_plan *plan, mns_error *error);
 
 /* Appends to what is left out; both strings are literals. */
 void plan_leave_out(mns_plan *plan, const char *part, const char *reason);

@@ -36,8 +36,9 @@ mns_status plan_reference(mns_plan *plan, const mns_field *field, bool host, mns
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) plan_leave_out(plan, parts[i], traced);
     plan_leave_out(plan, "a host's depth", "no host framebuffer");
     plan_look_left_out(plan);
-    plan_leave_out(plan, "FBVH", "no secondary rays are asked for");
+    plan_leave_out(plan, "FBVH", "the reference has a tree of its own");
     plan->pass[plan->pass_count++] = "trace";
+    if (plan->features & FEATURE_LIT) plan->pass[plan->pass_count++] = "effects";
     plan->pass[plan->pass_count++] = "shade";
     return MNS_OK;
 }

@@ -36,7 +36,8 @@ static const shader_part parts[SHADER_COUNT] = {
     [SHADER_TREE_WALK] = {NULL, NULL, "fbvh_resolve.glsl", READS_TREE},
     [SHADER_TREE_RESOLVE] = {NULL, NULL, "fbvh_resolve.glsl", READS_TREE},
     [SHADER_SHADE] = {"screen.vert.glsl", "shade.frag.glsl", NULL,
-                      FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_DIRECTIONAL | FEATURE_SPECULAR},
+                      FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_DIRECTIONAL | FEATURE_SPECULAR |
+                          FEATURE_LIT},
     [SHADER_HOST_DEPTH] = {"screen.vert.glsl", "host_depth.frag.glsl", NULL, FEATURE_FAR},
     [SHADER_HOST_DRAW] = {"screen.vert.glsl", "host_draw.frag.glsl", NULL, 0},
 };
@@ -78,6 +79,7 @@ static void add_features(char *defines, uint64_t f)
         {FEATURE_TILES, "TILES"},
         {FEATURE_OVERLAPS, "OVERLAPS"},
         {FEATURE_COUNTERS, "COUNTERS"},
+        {FEATURE_LIT, "LIT"},
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (f & names[i].bit) add(defines, names[i].name, 1);
@@ -121,6 +123,7 @@ static void add_ray(const mns_plan *plan, plan_shader shader, char *defines, uin
 void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[PLAN_DEFINES])
 {
     uint64_t f = plan->features & parts[shader].reads;
+    if (f & FEATURE_LIT) f = FEATURE_LIT; /* all that is left is to weight what it finds */
     defines[0] = '\0';
     if (shader == SHADER_CAST || shader == SHADER_WALK || shader == SHADER_RESOLVE || is_tree(shader))
         add_ray(plan, shader, defines, f);

@@ -9,6 +9,22 @@ struct mns_reference {
     reference_tree tree;
 };
 
+typedef struct reference_query {
+    double origin[3], direction[3]; /* known to be good */
+    double side;  /* 0; or of a ray that starts on the surface, as near as rounding allows, the side it leaves
+                     to:  1 inside, -1 outside */
+    double reach; /* what lies beyond is not looked at: distance from the origin, or INFINITY */
+} reference_query;
+
+typedef struct reference_answer {
+    mns_hit hit;
+    double s;        /* of a hit: where it lies on the chords that are left in the scratch */
+    double point[3]; /* and in space, to half a unit in the last place */
+} reference_answer;
+
+/* False: out of memory. */
+bool reference_ask(const mns_reference *reference, reference_scratch *scratch, const reference_query *query,
+                   reference_answer *answer);
 /* mns_reference_trace for a ray known to be good; a hit's chords stay in the scratch, and s is where on them
  * it lies. False: out of memory. */
 bool reference_trace(const mns_reference *reference, reference_scratch *scratch, const double origin[3],

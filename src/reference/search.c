@@ -241,7 +241,7 @@ static bool visit(search *s, double from, double to, size_t first, size_t count)
 }
 
 bool reference_search(reference_scratch *scratch, const mns_field *field, const reference_ray *ray,
-                      search_result *result)
+                      double side, double reach, search_result *result)
 {
     size_t count = scratch->chord_count;
     *result = (search_result){.certain = true};
@@ -256,11 +256,13 @@ bool reference_search(reference_scratch *scratch, const mns_field *field, const 
     search s = {.scratch = scratch, .field = field, .side = -1, .result = result};
     if (begin < -ray->base) {
         piece_balls all = balls_of(&s, 0, count);
-        reference_start start = reference_start_of(&all, field, ray);
+        reference_start start =
+            side != 0 ? reference_start_from(&all, ray, side) : reference_start_of(&all, field, ray);
         begin = start.from;
         s.side = start.side;
         s.touched = !start.certain;
     }
+    end = fmin(end, reach - ray->base);
     if (begin < end) visit(&s, begin, end, 0, count);
     result->certain = !s.touched && !s.given_up && !(s.hidden && !result->found);
     return !s.failed;

@@ -18,8 +18,9 @@ typedef struct search_result {
     double at;     /* the best guess inside */
 } search_result;
 
-/* Looks for the change of sign along the chords in `scratch`. False: out of memory. */
+/* Looks for the change of sign along the chords in `scratch`, up to `reach` from the eye. `side` is 0, or of
+ * a ray that leaves the surface 1 (inwards) or -1. False: out of memory. */
 bool reference_search(reference_scratch *scratch, const mns_field *field, const reference_ray *ray,
-                      search_result *result);
+                      double side, double reach, search_result *result);
 
 #endif

@@ -73,3 +73,13 @@ reference_start reference_start_of(const piece_balls *balls, const mns_field *fi
     }
     return start;
 }
+
+reference_start reference_start_from(const piece_balls *balls, const reference_ray *ray, double side)
+{
+    reference_start start = {.side = side, .from = -ray->base};
+    piece_point at;
+    if (!side_after(balls, -ray->base, &start)) return start;
+    piece_point_at(balls, start.from, &at);
+    start.certain = start.side == side && side * at.value > at.error;
+    return start;
+}

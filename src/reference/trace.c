@@ -43,7 +43,8 @@ void reference_scratch_free(reference_scratch *scratch)
 /* ---- A ray
  * ----------------------------------------------------------------------------------------------------- */
 
-static bool collect(const mns_reference *reference, reference_scratch *scratch, const reference_ray *ray)
+static bool collect(const mns_reference *reference, reference_scratch *scratch, const reference_ray *ray,
+                    double reach)
 {
     double origin[3], direction[3], pad[3];
     for (int a = 0; a < 3; a++) {
@@ -53,8 +54,10 @@ static bool collect(const mns_reference *reference, reference_scratch *scratch, 
         /* The boxes, the ray's origin and the way to them are each good to a few roundings of these; and a
          * ray that starts at `base` has left nothing of the field behind it. */
         pad[a] = 0x1p-48 * (fabs(origin[a]) + fmax(fabs(lo[a]), fabs(hi[a])) + (hi[a] - lo[a]));
+        reach += pad[a];
     }
-    if (!reference_tree_collect(&reference->tree, origin, direction, pad, &scratch->ball)) return false;
+    if (!reference_tree_collect(&reference->tree, origin, direction, pad, reach, &scratch->ball))
+        return false;
     scratch->chord_count = 0;
     if (scratch->ball.count > scratch->chord_capacity) {
         size_t capacity = scratch->ball.capacity;
@@ -101,21 +104,40 @@ static void describe(const reference_scratch *scratch, const mns_field *field, c
     for (int a = 0; a < 3; a++) hit->normal[a] = -gradient[a] / length;
 }
 
+bool reference_ask(const mns_reference *reference, reference_scratch *scratch, const reference_query *query,
+                   reference_answer *answer)
+{
+    const mns_field *field = reference->field;
+    reference_ray ray;
+    search_result found;
+    reference_ray_start(&ray, field, query->origin, query->direction);
+    if (!collect(reference, scratch, &ray, query->reach - ray.base)) return false;
+    if (!reference_search(scratch, field, &ray, query->side, query->reach, &found)) return false;
+    *answer = (reference_answer){.hit = {.hit = found.found, .certain = found.certain, .t = INFINITY}};
+    if (!found.found) return true;
+    real2 t = real2_sum(ray.base, found.at);
+    mns_hit *hit = &answer->hit;
+    hit->t = t.hi;
+    hit->t_error = (fmax(found.hi - found.at, found.at - found.lo) + fabs(t.lo) + ray.blur) * (1 + 8 * ROUND);
+    describe(scratch, field, &ray, found.at, hit);
+    answer->s = found.at;
+    for (int a = 0; a < 3; a++) {
+        real2 way = real2_multiply((real2){found.at, 0}, ray.direction[a]);
+        answer->point[a] = real2_add(ray.origin[a], way).hi;
+    }
+    return true;
+}
+
 bool reference_trace(const mns_reference *reference, reference_scratch *scratch, const double origin[3],
                      const double direction[3], mns_hit *hit, double *s)
 {
-    reference_ray ray;
-    search_result found;
-    reference_ray_start(&ray, reference->field, origin, direction);
-    if (!collect(reference, scratch, &ray)) return false;
-    if (!reference_search(scratch, reference->field, &ray, &found)) return false;
-    *hit = (mns_hit){.hit = found.found, .certain = found.certain, .t = INFINITY};
-    if (!found.found) return true;
-    real2 t = real2_sum(ray.base, found.at);
-    hit->t = t.hi;
-    hit->t_error = (fmax(found.hi - found.at, found.at - found.lo) + fabs(t.lo) + ray.blur) * (1 + 8 * ROUND);
-    describe(scratch, reference->field, &ray, found.at, hit);
-    *s = found.at;
+    reference_query query = {.reach = INFINITY};
+    reference_answer answer;
+    memcpy(query.origin, origin, sizeof query.origin);
+    memcpy(query.direction, direction, sizeof query.direction);
+    if (!reference_ask(reference, scratch, &query, &answer)) return false;
+    *hit = answer.hit;
+    *s = answer.s;
     return true;
 }
 

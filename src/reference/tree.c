@@ -107,12 +107,12 @@ void reference_tree_free(reference_tree *tree)
  * ------------------------------------------------------------------------------------------------ */
 
 typedef struct slabs {
-    double origin[3], inverse[3], pad[3];
+    double origin[3], inverse[3], pad[3], reach;
 } slabs;
 
 static bool meets(const slabs *s, const reference_node *node)
 {
-    double from = 0, to = INFINITY;
+    double from = 0, to = s->reach;
     for (int a = 0; a < 3; a++) {
         double t0 = (node->lo[a] - s->pad[a] - s->origin[a]) * s->inverse[a];
         double t1 = (node->hi[a] + s->pad[a] - s->origin[a]) * s->inverse[a];
@@ -124,10 +124,10 @@ static bool meets(const slabs *s, const reference_node *node)
 }
 
 bool reference_tree_collect(const reference_tree *tree, const double origin[3], const double direction[3],
-                            const double pad[3], reference_list *list)
+                            const double pad[3], double reach, reference_list *list)
 {
     size_t stack[DEPTH_MOST], top = 0;
-    slabs s;
+    slabs s = {.reach = reach};
     list->count = 0;
     for (int a = 0; a < 3; a++) {
         /* A ray along a slab: so small a step aside moves nothing, and 0 / 0 cannot come about. */

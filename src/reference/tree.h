@@ -29,10 +29,10 @@ bool reference_list_reserve(reference_list *list, size_t count);
 bool reference_tree_build(reference_tree *tree, const mns_field *field);
 void reference_tree_free(reference_tree *tree);
 
-/* All balls whose boxes, each widened by `pad`, the ray from `origin` along `direction` meets at or after 0:
- * every ball whose sphere it meets, and some others. False: out of memory. */
+/* All balls whose boxes, each widened by `pad`, the ray from `origin` along `direction` meets between 0 and
+ * `reach`: every ball whose sphere it meets there, and some others. False: out of memory. */
 bool reference_tree_collect(const reference_tree *tree, const double origin[3], const double direction[3],
-                            const double pad[3], reference_list *list);
+                            const double pad[3], double reach, reference_list *list);
 
 /* Calls `visit` for the balls whose boxes hold `point`. */
 void reference_tree_around(const reference_tree *tree, const double point[3],

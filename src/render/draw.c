@@ -171,7 +171,7 @@ static mns_status draw_sample(draw *d, const double jitter[2], mns_error *error)
 static mns_status shade_sample(draw *d, int sample, const double jitter[2], mns_error *error)
 {
     const mns_frame *f = d->frame;
-    const GLuint planes[3] = {f->t, f->normal, f->color};
+    const GLuint planes[3] = {f->t, f->normal, d->plan->features & FEATURE_LIT ? f->lit : f->color};
     mns_status status = shade_pass(&d->r->device, &d->r->shade, d->r->passes.vertex_array, d->plan,
                                    d->program[SHADER_SHADE], planes, f->shaded_target, sample, jitter, error);
     draw_mark(d, MNS_PHASE_SHADE);
@@ -186,6 +186,7 @@ static mns_status draw_samples(draw *d, mns_error *error)
     mns_status status = MNS_OK;
     for (int i = 0; i < samples && samples > 1 && !status; i++) {
         list_jitter(i, samples, jitter);
+        d->sample = i;
         status = draw_sample(d, jitter, error);
         if (!status) status = shade_sample(d, i, jitter, error);
     }
@@ -194,6 +195,7 @@ static mns_status draw_samples(draw *d, mns_error *error)
     d->stats->tiles = d->stats->list_nodes = d->stats->pixels_hit = d->stats->pixels_undecided = 0;
     d->lengths.count = 0;
     list_jitter(0, 1, jitter);
+    d->sample = 0;
     status = draw_sample(d, jitter, error);
     d->stats->ms_total = clock_ms() - d->stats->ms_total - d->stats->ms[MNS_PHASE_SHADE];
     if (!status && samples == 1) status = shade_sample(d, 0, jitter, error);

@@ -11,6 +11,8 @@ typedef struct draw_tracer {
     mns_reference *reference;
     float *t, *normal, *color; /* 2, 4 and 4 floats a pixel; color only with COLORS */
     float (*label)[3];         /* linear colours of the column's labels (LABELS) */
+    struct effects_scene *effects;
+    float *lit, *terms, *settled; /* 4, 4 and 1 floats a pixel, with LIT: see mns_frame */
 } draw_tracer;
 
 typedef struct draw {
@@ -23,6 +25,7 @@ typedef struct draw {
     GLuint program[SHADER_COUNT];
     list_lengths lengths;
     draw_tracer tracer;
+    int sample; /* of the pixels', which is being drawn */
     double wide[VIEW_VECTORS * 4];
     double last_mark,
         spent; /* clock at the last mark; milliseconds spent on figures and compilers, not on the frame */

@@ -19,11 +19,12 @@ mns_status mns_frame_create(mns_renderer *renderer, mns_frame **frame, mns_error
 static void drop_textures(mns_frame *f)
 {
     const GladGLContext *gl = &f->renderer->device.gl;
-    GLuint textures[] = {f->t, f->normal, f->color, f->shaded, f->work},
+    GLuint textures[] = {f->t, f->normal, f->color, f->shaded, f->work, f->lit, f->terms, f->settled},
            targets[] = {f->planes_target, f->shaded_target};
-    gl->DeleteTextures(5, textures);
+    gl->DeleteTextures(sizeof textures / sizeof *textures, textures);
     gl->DeleteFramebuffers(2, targets);
     f->t = f->normal = f->color = f->shaded = f->work = f->planes_target = f->shaded_target = 0;
+    f->lit = f->terms = f->settled = 0;
 }
 
 void mns_frame_destroy(mns_frame *f)
@@ -76,19 +77,26 @@ mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
     bool work = plan->features & FEATURE_COUNTERS;
     f->has_work = work;
     if (same && work && !f->work) f->work = plane_make(gl, GL_RGBA32F, width, height);
-    if (same && f->has_color == color) return MNS_OK;
+    bool lit = plan->features & FEATURE_LIT;
+    if (same && f->has_color == color && f->has_lit == lit) return MNS_OK;
     drop_textures(f);
     f->t = plane_make(gl, GL_RG32F, width, height);
     f->normal = plane_make(gl, GL_RGBA32F, width, height);
     if (color) f->color = plane_make(gl, GL_RGBA16F, width, height);
     f->shaded = plane_make(gl, GL_RGBA32F, width, height);
     if (work) f->work = plane_make(gl, GL_RGBA32F, width, height);
+    if (lit) {
+        f->lit = plane_make(gl, GL_RGBA32F, width, height);
+        f->terms = plane_make(gl, GL_RGBA32F, width, height);
+        f->settled = plane_make(gl, GL_R32F, width, height);
+    }
     GLuint planes[] = {f->t, f->normal, f->color};
     f->planes_target = target_make(gl, planes, color ? 3 : 2);
     f->shaded_target = target_make(gl, &f->shaded, 1);
     f->width = width;
     f->height = height;
     f->has_color = color;
+    f->has_lit = lit;
     mns_status status = gl_check(device, "frame", error);
     if (status) drop_textures(f);
     return status;
@@ -117,23 +125,37 @@ const mns_plan *mns_frame_plan(const mns_frame *frame)
     return frame->plan;
 }
 
-static mns_image *image_make(int width, int height, bool with_error, bool with_work)
+static float *plane_or_none(bool wanted, size_t pixels, size_t floats, bool *failed)
 {
-    size_t pixels = (size_t)width * (size_t)height;
+    float *plane = wanted ? memory_array(pixels, floats * sizeof *plane) : NULL;
+    *failed = *failed || (wanted && !plane);
+    return plane;
+}
+
+static mns_image *image_make(const mns_frame *f)
+{
+    size_t pixels = (size_t)f->width * (size_t)f->height;
+    uint64_t features = f->plan->features;
     mns_image *image = calloc(1, sizeof *image);
     if (!image) return NULL;
-    image->width = width;
-    image->height = height;
-    image->rgba = memory_array(pixels, 4 * sizeof(float));
-    image->t = memory_array(pixels, sizeof(float));
-    image->t_lo = memory_array(pixels, sizeof(float));
-    image->normal = memory_array(pixels, 3 * sizeof(float));
-    image->certain = memory_array(pixels, sizeof(float));
-    if (with_error) image->t_error = memory_array(pixels, sizeof(float));
-    if (with_work) image->work = memory_array(pixels, MNS_WORK_COUNT * sizeof(float));
-    if ((with_error && !image->t_error) || (with_work && !image->work)) goto fail;
-    if (image->rgba && image->t && image->t_lo && image->normal && image->certain) return image;
-fail:
+    bool failed = false;
+    *image = (mns_image){
+        .width = f->width,
+        .height = f->height,
+        .rgba = plane_or_none(true, pixels, 4, &failed),
+        .t = plane_or_none(true, pixels, 1, &failed),
+        .t_lo = plane_or_none(true, pixels, 1, &failed),
+        .normal = plane_or_none(true, pixels, 3, &failed),
+        .certain = plane_or_none(true, pixels, 1, &failed),
+        .t_error = plane_or_none(f->t_error != NULL, pixels, 1, &failed),
+        .work = plane_or_none(f->has_work, pixels, MNS_WORK_COUNT, &failed),
+        .shadow = plane_or_none(features & FEATURE_SHADOWS, pixels, 1, &failed),
+        .occlusion = plane_or_none(features & FEATURE_OCCLUSION, pixels, 1, &failed),
+        .mirror_t = plane_or_none(features & FEATURE_MIRROR, pixels, 1, &failed),
+        .refract_t = plane_or_none(features & FEATURE_REFRACTION, pixels, 1, &failed),
+        .effects_certain = plane_or_none(features & FEATURE_LIT, pixels, 1, &failed),
+    };
+    if (!failed) return image;
     mns_image_destroy(image);
     return NULL;
 }
@@ -144,6 +166,23 @@ static void fetch(const GladGLContext *gl, GLuint texture, GLenum format, float 
     gl->BindTexture(GL_TEXTURE_2D, texture);
     gl->GetTexImage(GL_TEXTURE_2D, 0, format, GL_FLOAT, to);
     gl->BindTexture(GL_TEXTURE_2D, 0);
+}
+
+/* The effects' terms, each to its plane where there is one. */
+static void unpack_terms(const mns_frame *f, mns_image *image, float *row_store)
+{
+    const GladGLContext *gl = &f->renderer->device.gl;
+    float *const planes[4] = {image->shadow, image->occlusion, image->mirror_t, image->refract_t};
+    size_t width = (size_t)f->width, height = (size_t)f->height;
+    fetch(gl, f->terms, GL_RGBA, row_store);
+    for (size_t i = 0; i < width * height; i++)
+        for (size_t term = 0; term < 4; term++)
+            if (planes[term])
+                planes[term][i] = row_store[((height - 1 - i / width) * width + i % width) * 4 + term];
+    fetch(gl, f->settled, GL_RED, row_store);
+    for (size_t y = 0; y < height; y++)
+        memcpy(image->effects_certain + y * width, row_store + (height - 1 - y) * width,
+               width * sizeof *row_store);
 }
 
 static void unpack(const mns_frame *f, mns_image *image, float *row_store)
@@ -169,6 +208,7 @@ static void unpack(const mns_frame *f, mns_image *image, float *row_store)
             for (size_t axis = 0; axis < 3; axis++) image->normal[(y * width + x) * 3 + axis] = from[axis];
             image->certain[y * width + x] = from[3];
         }
+    if (f->has_lit) unpack_terms(f, image, row_store);
     if (!f->has_work) return;
     fetch(gl, f->work, GL_RGBA, row_store);
     for (size_t y = 0; y < height; y++)
@@ -183,7 +223,7 @@ mns_status mns_frame_read(mns_frame *f, mns_image **result, mns_error *error)
         return status_fail(error, MNS_ERROR_USAGE, "frame: nothing has been drawn into it yet");
     double begin = clock_ms();
     float *store = memory_array((size_t)f->width * (size_t)f->height, 4 * sizeof(float));
-    mns_image *image = image_make(f->width, f->height, f->t_error != NULL, f->has_work);
+    mns_image *image = image_make(f);
     gl_state state;
     if (!store || !image) {
         free(store);

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/status.h"
+#include "effects/effects.h"
 #include "render/draw.h"
 #include "shade/palette.h"
 #include "shade/shade.h"
@@ -47,11 +48,40 @@ static void blend(const draw *d, const reference_scratch *scratch, double s, flo
     color[3] = weight > 0 ? 1 : 0;
 }
 
+/* The linear colour that glsl/shade.frag.glsl makes of a place on the colour map. */
+static void map_color(mns_color_map map, double place, double color[3])
+{
+    const uint32_t *anchor = palette_map(map);
+    double at = fmin(fmax(place, 0), 1) * (PALETTE_ANCHORS - 1);
+    int low = at < PALETTE_ANCHORS - 2 ? (int)at : PALETTE_ANCHORS - 2;
+    for (int c = 0; c < 3; c++) {
+        int shift = 16 - 8 * c;
+        double a = anchor[low] >> shift & 255, b = anchor[low + 1] >> shift & 255;
+        color[c] = (double)shade_linear((a + (b - a) * (at - low)) / 255);
+    }
+}
+
+static void surface_albedo(const void *user, const reference_scratch *scratch, double s, double color[3])
+{
+    const draw *d = user;
+    float blended[4];
+    if (!(d->plan->features & FEATURE_COLORS)) {
+        for (int c = 0; c < 3; c++) color[c] = (double)shade_linear(d->plan->look.color[c]);
+        return;
+    }
+    blend(d, scratch, s, blended);
+    if (!(d->plan->features & FEATURE_LABELS)) {
+        map_color(d->plan->look.color_map, (double)blended[0], color);
+        return;
+    }
+    for (int c = 0; c < 3; c++) color[c] = (double)blended[c];
+}
+
 /* ---- Pixels
  * ------------------------------------------------------------------------------------------------- */
 
 typedef struct row_counts {
-    uint64_t hits, undecided;
+    uint64_t hits, undecided, effects_rays, effects_undecided;
 } row_counts;
 
 /* The least float that is no smaller. */
@@ -73,33 +103,66 @@ static void put_pixel(draw *d, size_t at, size_t from_top, const mns_hit *hit)
         hit->hit ? rounded_up(hit->t_error + fabs(hit->t - ((double)high + (double)low))) : 0;
 }
 
+/* The pixel's colour and terms, by rays from what its first found. False: out of memory. */
+static bool light_pixel(draw *d, reference_scratch *scratch, size_t at, vec3 way,
+                        const reference_answer *first, row_counts *counts)
+{
+    size_t width = (size_t)d->plan->frame.width, height = (size_t)d->plan->frame.height;
+    draw_tracer *tracer = &d->tracer;
+    effects_pixel pixel = {
+        .x = (uint32_t)(at % width), .y = (uint32_t)(height - 1 - at / width), .sample = (uint32_t)d->sample};
+    if (!effects_shade(tracer->effects, scratch, way, first, &pixel)) return false;
+    float *terms = tracer->terms + 4 * at;
+    for (int c = 0; c < 4; c++) tracer->lit[4 * at + (size_t)c] = (float)pixel.color[c];
+    terms[0] = (float)pixel.shadow, terms[1] = (float)pixel.occlusion;
+    terms[2] = (float)pixel.mirror, terms[3] = (float)pixel.refracted;
+    tracer->settled[at] = pixel.certain ? 1 : 0;
+    counts->effects_rays += pixel.rays;
+    counts->effects_undecided += !pixel.certain;
+    return true;
+}
+
 /* Row y from the bottom. False: out of memory. */
 static bool trace_row(draw *d, reference_scratch *scratch, int y, const double jitter[2], row_counts *counts)
 {
     const view_frame *frame = &d->plan->frame;
-    bool colors = d->plan->features & FEATURE_COLORS;
+    bool lit = d->plan->features & FEATURE_LIT, colors = d->plan->features & FEATURE_COLORS && !lit;
     size_t width = (size_t)frame->width, from_top = (size_t)(frame->height - 1 - y);
-    double eye[3], way[3], s = 0;
-    vec3_store(eye, frame->eye);
+    reference_query query = {.reach = INFINITY};
+    vec3_store(query.origin, frame->eye);
     for (size_t x = 0; x < width; x++) {
         size_t at = (size_t)y * width + x;
-        mns_hit hit;
-        vec3_store(way,
-                   view_direction(frame, (double)x + 0.5 + jitter[0], (double)from_top + 0.5 - jitter[1]));
-        if (!reference_trace(d->tracer.reference, scratch, eye, way, &hit, &s)) return false;
-        counts->hits += hit.hit;
-        counts->undecided += !hit.certain;
-        put_pixel(d, at, from_top * width + x, &hit);
+        reference_answer answer;
+        vec3 way = view_direction(frame, (double)x + 0.5 + jitter[0], (double)from_top + 0.5 - jitter[1]);
+        vec3_store(query.direction, way);
+        if (!reference_ask(d->tracer.reference, scratch, &query, &answer)) return false;
+        counts->hits += answer.hit.hit;
+        counts->undecided += !answer.hit.certain;
+        put_pixel(d, at, from_top * width + x, &answer.hit);
+        if (lit && !light_pixel(d, scratch, at, way, &answer, counts)) return false;
         if (!colors) continue;
         float *color = d->tracer.color + 4 * at;
         memset(color, 0, 4 * sizeof *color);
-        if (hit.hit) blend(d, scratch, s, color);
+        if (answer.hit.hit) blend(d, scratch, answer.s, color);
     }
     return true;
 }
 
 /* ---- Frames
  * ------------------------------------------------------------------------------------------------- */
+
+static mns_status begin_effects(draw *d, mns_error *error)
+{
+    size_t pixels = (size_t)d->plan->frame.width * (size_t)d->plan->frame.height;
+    draw_tracer *tracer = &d->tracer;
+    tracer->lit = memory_array(pixels, 4 * sizeof(float));
+    tracer->terms = memory_array(pixels, 4 * sizeof(float));
+    tracer->settled = memory_array(pixels, sizeof(float));
+    tracer->effects = calloc(1, sizeof *tracer->effects);
+    if (!tracer->lit || !tracer->terms || !tracer->settled || !tracer->effects)
+        return status_no_memory(error, "while tracing a frame");
+    return effects_begin(tracer->effects, d->plan, tracer->reference, surface_albedo, d, error);
+}
 
 mns_status draw_reference_begin(draw *d, mns_error *error)
 {
@@ -117,6 +180,7 @@ mns_status draw_reference_begin(draw *d, mns_error *error)
         if (!tracer->color) return status_no_memory(error, "while tracing a frame");
         if (d->plan->features & FEATURE_LABELS) status = make_labels(d, error);
     }
+    if (!status && d->plan->features & FEATURE_LIT) status = begin_effects(d, error);
     draw_mark(d, MNS_PHASE_BUILD);
     return status;
 }
@@ -128,6 +192,11 @@ void draw_reference_end(draw *d)
     free(d->tracer.normal);
     free(d->tracer.color);
     free(d->tracer.label);
+    free(d->tracer.lit);
+    free(d->tracer.terms);
+    free(d->tracer.settled);
+    if (d->tracer.effects) effects_end(d->tracer.effects);
+    free(d->tracer.effects);
     d->tracer = (draw_tracer){0};
 }
 
@@ -143,9 +212,10 @@ static void upload(draw *d)
         GLuint texture;
         GLenum format;
         const float *data;
-    } planes[] = {{d->frame->t, GL_RG, d->tracer.t},
-                  {d->frame->normal, GL_RGBA, d->tracer.normal},
-                  {d->frame->color, GL_RGBA, d->tracer.color}};
+    } planes[] = {
+        {d->frame->t, GL_RG, d->tracer.t},           {d->frame->normal, GL_RGBA, d->tracer.normal},
+        {d->frame->color, GL_RGBA, d->tracer.color}, {d->frame->lit, GL_RGBA, d->tracer.lit},
+        {d->frame->terms, GL_RGBA, d->tracer.terms}, {d->frame->settled, GL_RED, d->tracer.settled}};
     GLint before[UNPACK];
     for (int i = 0; i < UNPACK; i++) {
         gl->GetIntegerv(name[i], &before[i]);
@@ -164,23 +234,27 @@ static void upload(draw *d)
 mns_status draw_reference_sample(draw *d, const double jitter[2], mns_error *error)
 {
     int height = d->plan->frame.height;
-    uint64_t hits = 0, undecided = 0;
+    uint64_t hits = 0, undecided = 0, rays = 0, effects_undecided = 0;
     bool failed = false;
-#pragma omp parallel reduction(+ : hits, undecided) reduction(|| : failed)
+#pragma omp parallel reduction(+ : hits, undecided, rays, effects_undecided) reduction(|| : failed)
     {
         reference_scratch scratch = {0};
-        row_counts counts = {0, 0};
+        row_counts counts = {0};
 #pragma omp for schedule(dynamic)
         for (int y = 0; y < height; y++)
             if (!failed) failed = !trace_row(d, &scratch, y, jitter, &counts);
         hits += counts.hits;
         undecided += counts.undecided;
+        rays += counts.effects_rays;
+        effects_undecided += counts.effects_undecided;
         reference_scratch_free(&scratch);
     }
     if (failed) return status_no_memory(error, "while tracing a frame");
     upload(d);
     d->stats->pixels_hit = hits;
     d->stats->pixels_undecided = undecided;
+    d->stats->effects_rays = rays;
+    d->stats->effects_undecided = effects_undecided;
     d->stats->tiles = 1;
     draw_mark(d, MNS_PHASE_TRACE);
     return MNS_OK;

@@ -54,9 +54,12 @@ struct mns_frame {
     mns_stats stats;
     GLuint t, normal, color, shaded; /* textures; color only with COLORS */
     GLuint work;                     /* counts of each ray's work, with COUNTERS */
+    GLuint lit;                      /* with LIT: colours before the shade pass, linear, premultiplied */
+    GLuint terms;   /* and the effects' terms at the first hit: shadow, occlusion, mirror.t, refract.t */
+    GLuint settled; /* and 1, or 0 where some ray beyond it was undecided */
     GLuint planes_target, shaded_target;
     int width, height;
-    bool has_color, has_work;
+    bool has_color, has_work, has_lit;
     float *t_error; /* bound on the error of each distance, row 0 at the top; NULL where the method gives none
                      */
 };

@@ -18,6 +18,8 @@ static void free_file(scene_file *file)
     for (size_t i = 0; i < file->input_count; i++) free(file->inputs[i]);
     free(file->inputs);
     free(file->color_by);
+    free(file->environment);
+    free(file->lights);
     free(file);
 }
 
@@ -34,23 +36,29 @@ static bool is_generator(const char *name)
     return c > name && *c == ':' && isdigit((unsigned char)c[1]);
 }
 
-/* Puts the scene's folder before every relative file name. */
-static mns_status resolve_inputs(scene_file *file, const char *path, mns_error *error)
+/* Puts the scene's folder before a relative file name. */
+static mns_status resolve(char **name, const char *path, mns_error *error)
 {
     const char *slash = strrchr(path, '/');
-    size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
-    for (size_t i = 0; i < file->input_count; i++) {
-        const char *name = file->inputs[i];
-        if (folder == 0 || name[0] == '/' || is_generator(name)) continue;
-        size_t length = strlen(name) + 1;
-        char *full = memory_array(folder + length, 1);
-        if (!full) return status_no_memory(error, "reading a scene's inputs");
-        memcpy(full, path, folder);
-        memcpy(full + folder, name, length);
-        free(file->inputs[i]);
-        file->inputs[i] = full;
-    }
+    size_t folder = slash ? (size_t)(slash - path) + 1 : 0, length = strlen(*name) + 1;
+    if (folder == 0 || (*name)[0] == '/') return MNS_OK;
+    char *full = memory_array(folder + length, 1);
+    if (!full) return status_no_memory(error, "reading a scene");
+    memcpy(full, path, folder);
+    memcpy(full + folder, *name, length);
+    free(*name);
+    *name = full;
     return MNS_OK;
+}
+
+static mns_status resolve_files(scene_file *file, const char *path, mns_error *error)
+{
+    mns_status status = MNS_OK;
+    for (size_t i = 0; i < file->input_count && !status; i++)
+        if (!is_generator(file->inputs[i])) status = resolve(&file->inputs[i], path, error);
+    if (!status && file->environment && strcmp(file->environment, "sky") != 0)
+        status = resolve(&file->environment, path, error);
+    return status;
 }
 
 mns_status scene_parse(const char *text, size_t size, const char *path, mns_scene **scene, mns_error *error)
@@ -67,12 +75,14 @@ mns_status scene_parse(const char *text, size_t size, const char *path, mns_scen
         goto fail;
     }
     status = scene_read_keys(root, path, file, error);
-    if (!status) status = resolve_inputs(file, path, error);
+    if (!status) status = resolve_files(file, path, error);
     if (status) goto fail;
     json_decref(root);
     file->scene.inputs = (const char *const *)file->inputs;
     file->scene.input_count = file->input_count;
     file->scene.look.color_by = file->color_by;
+    file->scene.look.effects.environment = file->environment;
+    file->scene.look.lights = file->lights;
     *scene = &file->scene;
     return MNS_OK;
 

@@ -11,7 +11,8 @@ typedef struct scene_file {
     mns_scene scene; /* first, so that the public pointer is this one */
     char **inputs;
     size_t input_count;
-    char *color_by;
+    char *color_by, *environment;
+    mns_light *lights; /* scene.look.light_count of them */
 } scene_file;
 
 /* Parses `size` bytes of JSON. `path` names the file in errors, and relative inputs are resolved beside it.

@@ -1,51 +1,11 @@
 /* The keys of a scene file: a table an object, a row a key. README.md lists them for users. */
-#include "scene/scene_values.h"
+#include "scene/scene_object.h"
 
 #include "base/memory.h"
 #include "base/status.h"
 
 #include <stdio.h>
 #include <string.h>
-
-#define COUNT(array) (sizeof(array) / sizeof *(array))
-
-typedef struct scene_key {
-    const char *name;
-    scene_read *read;
-    size_t target;     /* offset in mns_scene */
-    size_t set_target; /* offset of the `set` member that tells it is given */
-    unsigned set_bit;  /* 0: its value tells */
-} scene_key;
-
-static mns_status unknown_key(scene_reader *r, const char *key, const scene_key *keys, size_t count)
-{
-    char known[200] = "";
-    for (size_t i = 0, used = 0; i < count && used < sizeof known; i++)
-        used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", keys[i].name);
-    return status_fail(r->error, MNS_ERROR_INPUT, "%s: %s: unknown key; known: %s", r->path, key, known);
-}
-
-static mns_status read_object(scene_reader *r, const char *key, const json_t *value, const scene_key *keys,
-                              size_t count)
-{
-    if (!json_is_object(value)) return scene_wrong(r, key, value, "an object");
-    const char *name;
-    json_t *member;
-    json_object_foreach((json_t *)value, name, member)
-    {
-        char path[SCENE_PATH_SIZE];
-        snprintf(path, sizeof path, "%s%s%.80s", key, *key ? "." : "", name);
-        const scene_key *found = NULL;
-        for (size_t i = 0; i < count && !found; i++)
-            if (strcmp(keys[i].name, name) == 0) found = &keys[i];
-        if (!found) return unknown_key(r, path, keys, count);
-        char *scene = (char *)&r->file->scene;
-        mns_status status = found->read(r, path, member, scene + found->target);
-        if (status) return status;
-        if (found->set_bit) *(unsigned *)(scene + found->set_target) |= found->set_bit;
-    }
-    return MNS_OK;
-}
 
 /* ---- Inputs ----------------------------------------------------------------------------------------- */
 
@@ -128,29 +88,47 @@ static const scene_key MATERIAL_KEYS[] = {
 static mns_status read_field(scene_reader *r, const char *key, const json_t *value, void *target)
 {
     (void)target;
-    return read_object(r, key, value, FIELD_KEYS, COUNT(FIELD_KEYS));
+    return scene_read_object(r, key, value, FIELD_KEYS, SCENE_COUNT(FIELD_KEYS), &r->file->scene);
 }
 
 static mns_status read_camera(scene_reader *r, const char *key, const json_t *value, void *target)
 {
     (void)target;
-    return read_object(r, key, value, CAMERA_KEYS, COUNT(CAMERA_KEYS));
+    return scene_read_object(r, key, value, CAMERA_KEYS, SCENE_COUNT(CAMERA_KEYS), &r->file->scene);
+}
+
+static mns_status read_look(scene_reader *r, const char *key, const json_t *value, void *target)
+{
+    (void)target;
+    char expected[160] = "one of";
+    size_t used = strlen(expected);
+    const char *text = json_string_value(value), *name;
+    for (size_t i = 0; (name = mns_look_preset_name(i)); i++) {
+        if (text && strcmp(name, text) == 0) {
+            r->file->scene.look.preset = name;
+            return MNS_OK;
+        }
+        used += (size_t)snprintf(expected + used, sizeof expected - used, " %s", name);
+    }
+    return scene_wrong(r, key, value, expected);
 }
 
 /* A direction alone means a directional light. */
 static mns_status read_light(scene_reader *r, const char *key, const json_t *value, void *target)
 {
     (void)target;
-    mns_status status = read_object(r, key, value, LIGHT_KEYS, COUNT(LIGHT_KEYS));
+    mns_status status =
+        scene_read_object(r, key, value, LIGHT_KEYS, SCENE_COUNT(LIGHT_KEYS), &r->file->scene);
     if (!status && json_object_get(value, "direction") && !json_object_get(value, "kind"))
         r->file->scene.look.light = MNS_LIGHT_DIRECTIONAL;
+    r->file->scene.look.set |= MNS_LOOK_LIGHT;
     return status;
 }
 
 static mns_status read_material(scene_reader *r, const char *key, const json_t *value, void *target)
 {
     (void)target;
-    return read_object(r, key, value, MATERIAL_KEYS, COUNT(MATERIAL_KEYS));
+    return scene_read_object(r, key, value, MATERIAL_KEYS, SCENE_COUNT(MATERIAL_KEYS), &r->file->scene);
 }
 
 static const scene_key SCENE_KEYS[] = {
@@ -159,6 +137,9 @@ static const scene_key SCENE_KEYS[] = {
     {PART("inputs", read_input_list)},
     {PART("camera", read_camera)},
     {PART("light", read_light)},
+    {KEY_SET("lights", scene_read_lights, look, look.set, MNS_LOOK_LIGHT)},
+    {PART("look", read_look)},
+    {PART("effects", scene_read_effects)},
     {PART("material", read_material)},
     {KEY_SET("background", scene_read_background, look.background, look.set, MNS_LOOK_BACKGROUND)},
     {PART("size", scene_read_size)},
@@ -167,5 +148,5 @@ static const scene_key SCENE_KEYS[] = {
 mns_status scene_read_keys(const json_t *root, const char *path, scene_file *file, mns_error *error)
 {
     scene_reader reader = {path, file, error};
-    return read_object(&reader, "", root, SCENE_KEYS, COUNT(SCENE_KEYS));
+    return scene_read_object(&reader, "", root, SCENE_KEYS, SCENE_COUNT(SCENE_KEYS), &file->scene);
 }

@@ -12,10 +12,26 @@
     (FEATURE_PAPER | FEATURE_POINTS | FEATURE_QUADS | FEATURE_SHUFFLE | FEATURE_CLIP_ZERO |                  \
      FEATURE_FLAT_CORES)
 
+/* What makes a frame LIT; and what only goes with some of it. */
+#define LIGHT_WAYS                                                                                           \
+    (FEATURE_LIGHTS | FEATURE_POINT_LIGHTS | FEATURE_SHADOWS | FEATURE_MIRROR | FEATURE_REFRACTION |         \
+     FEATURE_OCCLUSION | FEATURE_ENVIRONMENT | FEATURE_SKY)
+#define EFFECTS (LIGHT_WAYS | FEATURE_LIT | FEATURE_SOFT_SHADOWS | FEATURE_FRESNEL | FEATURE_ABSORPTION)
+
 /* `a` only with all of `b`. */
 static bool implies(uint64_t features, uint64_t a, uint64_t b)
 {
     return !(features & a) || (features & b) == b;
+}
+
+static bool effects_possible(uint64_t f)
+{
+    return !(f & FEATURE_LIT) == !(f & LIGHT_WAYS) &&
+           implies(f, FEATURE_SOFT_SHADOWS, FEATURE_SHADOWS | FEATURE_POINT_LIGHTS) &&
+           implies(f, FEATURE_FRESNEL, FEATURE_MIRROR) &&
+           implies(f, FEATURE_ABSORPTION, FEATURE_REFRACTION) &&
+           (!(f & FEATURE_SHADOWS) || f & (FEATURE_DIRECTIONAL | FEATURE_POINT_LIGHTS)) &&
+           !(f & FEATURE_ENVIRONMENT && f & FEATURE_SKY);
 }
 
 bool variant_possible(uint64_t f)
@@ -25,9 +41,10 @@ bool variant_possible(uint64_t f)
         uint64_t looks = FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_DIRECTIONAL |
                          FEATURE_SPECULAR | FEATURE_SAMPLES;
         return kernel >= MNS_KERNEL_POLY2 && kernel <= MNS_KERNEL_WENDLAND &&
-               !(f & ~(looks | FEATURE_KERNEL | FEATURE_REFERENCE)) &&
+               !(f & ~(looks | EFFECTS | FEATURE_KERNEL | FEATURE_REFERENCE)) && effects_possible(f) &&
                implies(f, FEATURE_LABELS, FEATURE_COLORS);
     }
+    if (f & EFFECTS) return false;
     bool each_core = f & FEATURE_CORE && f & FEATURE_STRENGTHS;
     bool tree = f & FEATURE_TREE;
     if (tree && (f & NEVER_OF_TREES || (solver != MNS_SOLVER_EXACT && solver != MNS_SOLVER_SECANT)))
@@ -72,6 +89,7 @@ static uint64_t fill_in(plan_shader shader, uint64_t reads, uint64_t f)
     bool quads = shader == SHADER_CORE_QUADS || shader == SHADER_GATHER_QUADS;
     bool tree = shader == SHADER_TREE || shader == SHADER_TREE_WALK || shader == SHADER_TREE_RESOLVE;
     uint64_t more = f & FEATURE_TILES ? 0
+                    : f & FEATURE_LIT ? FEATURE_REFERENCE | FEATURE_SKY
                     : tree            ? FEATURE_TREE
                     : quads           ? FEATURE_QUADS
                                       : FEATURE_POINTS | FEATURE_QUADS;

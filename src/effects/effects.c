@@ -1,0 +1,182 @@
+/* A pixel's path through the scene: at each surface it is shaded, and branches into a mirrored and a
+ * refracted ray. */
+#include "effects/effects.h"
+
+#include "base/memory.h"
+#include "effects/shared.h"
+#include "effects/walk.h"
+#include "shade/shade.h"
+
+#include <string.h>
+
+/* A ray whose share of the pixel is below this is not worth its cost: it sees the environment. */
+#define SHARE_LEAST (1.0 / 1024)
+
+mns_status effects_begin(effects_scene *scene, const mns_plan *plan, const mns_reference *reference,
+                         effects_albedo *albedo, const void *user, mns_error *error)
+{
+    size_t count = plan->look.light_count;
+    *scene = (effects_scene){.plan = plan, .reference = reference, .albedo = albedo, .user = user};
+    scene->radiance = memory_array(count, sizeof *scene->radiance);
+    if (!scene->radiance) return status_no_memory(error, "while tracing a frame");
+    for (size_t i = 0; i < count; i++)
+        for (int c = 0; c < 3; c++)
+            scene->radiance[i][c] = plan->light[i].strength * (double)shade_linear(plan->light[i].color[c]);
+    return environment_begin(&scene->environment, plan, error);
+}
+
+void effects_end(effects_scene *scene)
+{
+    free(scene->radiance);
+    environment_end(&scene->environment);
+    *scene = (effects_scene){0};
+}
+
+/* What a ray has left: levels, and its share of the pixel, a channel. */
+typedef struct allowance {
+    int reflections, refractions;
+    double share[3];
+} allowance;
+
+static double largest(const double v[3])
+{
+    return fmax(v[0], fmax(v[1], v[2]));
+}
+
+static void surface_take(const effects_walk *walk, vec3 way, const reference_answer *answer, uint32_t path,
+                         effects_surface *surface)
+{
+    vec3 outward = vec3_load(answer->hit.normal);
+    surface->inside = vec3_dot(outward, way) > 0;
+    surface->normal = surface->inside ? vec3_scale(outward, -1) : outward;
+    surface->to_viewer = vec3_scale(way, -1);
+    surface->at = vec3_load(answer->point);
+    surface->path = path;
+    walk->scene->albedo(walk->scene->user, walk->scratch, answer->s, surface->albedo);
+}
+
+/* Dims what came `length` through the medium. */
+static void absorb(const mns_plan *plan, double length, double color[3])
+{
+    for (int c = 0; c < 3 && plan->features & FEATURE_ABSORPTION; c++)
+        color[c] *= exp(-plan->look.effects.absorption[c] * length);
+}
+
+static void surface_color(effects_walk *walk, const effects_surface *surface, const allowance *left,
+                          bool is_first, double color[3]);
+
+/* What comes along a ray that leaves a surface; the distance of what it meets, INFINITY where that is nothing
+ * or the ray is not traced. */
+static double ray_color(effects_walk *walk, const effects_surface *from, vec3 way, uint32_t path, bool traced,
+                        const allowance *left, double color[3])
+{
+    reference_answer answer = {.hit = {.t = INFINITY}};
+    effects_surface surface;
+    if (traced && largest(left->share) >= SHARE_LEAST && !effects_ask(walk, from, way, INFINITY, &answer))
+        return INFINITY;
+    if (!answer.hit.hit) {
+        environment_color(&walk->scene->environment, way, color);
+        return INFINITY;
+    }
+    surface_take(walk, way, &answer, path, &surface);
+    allowance rest = *left;
+    if (surface.inside) absorb(walk->scene->plan, answer.hit.t, rest.share);
+    surface_color(walk, &surface, &rest, false, color);
+    if (surface.inside) absorb(walk->scene->plan, answer.hit.t, color);
+    return answer.hit.t;
+}
+
+/* What a surface does to the light: shares, and how its rays are bent. */
+typedef struct optics {
+    double cosine, ratio, mirrored;
+    bool total; /* reflection */
+} optics;
+
+static optics optics_of(const mns_plan *plan, const effects_surface *surface)
+{
+    const mns_effects *e = &plan->look.effects;
+    optics o = {
+        .cosine = fmin(vec3_dot(surface->normal, surface->to_viewer), 1), .ratio = 1, .mirrored = e->mirror};
+    if (!(plan->features & FEATURE_FRESNEL)) return o;
+    o.ratio = surface->inside ? 1 / e->index : e->index;
+    o.total = optics_beyond(o.ratio, o.cosine) <= 0;
+    o.mirrored += (1 - e->mirror) * optics_fresnel(o.ratio, o.cosine);
+    if (o.total) o.mirrored = 1;
+    return o;
+}
+
+/* Adds the mirrored ray's light. A total reflection is one of the surfaces that a ray may pass through; only
+ * where none of those is left is it a mirror's level. */
+static double add_mirrored(effects_walk *walk, const effects_surface *surface, const optics *o,
+                           allowance left, double color[3])
+{
+    double seen[3] = {0, 0, 0};
+    vec3 way = vec3_along(vec3_scale(surface->to_viewer, -1), 2 * o->cosine, surface->normal);
+    int *level = o->total && left.refractions ? &left.refractions : &left.reflections;
+    bool traced = *level > 0;
+    *level -= traced;
+    for (int c = 0; c < 3; c++) left.share[c] *= o->mirrored;
+    double t = ray_color(walk, surface, vec3_unit(way), 2 * surface->path, traced, &left, seen);
+    for (int c = 0; c < 3; c++) color[c] += o->mirrored * seen[c];
+    return t;
+}
+
+static double add_refracted(effects_walk *walk, const effects_surface *surface, const optics *o, double share,
+                            allowance left, double color[3])
+{
+    double seen[3] = {0, 0, 0};
+    vec3 way = vec3_scale(surface->to_viewer, -1);
+    if (o->ratio != 1)
+        way = vec3_unit(
+            vec3_scale(vec3_along(way, optics_bend(o->ratio, o->cosine), surface->normal), 1 / o->ratio));
+    bool traced = left.refractions > 0;
+    left.refractions -= traced;
+    for (int c = 0; c < 3; c++) left.share[c] *= share;
+    double t = ray_color(walk, surface, way, 2 * surface->path + 1, traced, &left, seen);
+    for (int c = 0; c < 3; c++) color[c] += share * seen[c];
+    return t;
+}
+
+static void surface_color(effects_walk *walk, const effects_surface *surface, const allowance *left,
+                          bool is_first, double color[3])
+{
+    const mns_plan *plan = walk->scene->plan;
+    optics o = optics_of(plan, surface);
+    double passes = plan->look.effects.transmission * (1 - o.mirrored);
+    double shaded = (1 - plan->look.effects.transmission) * (1 - o.mirrored);
+    double mirror = INFINITY, refracted = INFINITY;
+    effects_lit lit;
+    effects_light(walk, surface, shaded > 0, &lit);
+    for (int c = 0; c < 3; c++) color[c] = lit.shine[c] + shaded * lit.shaded[c];
+    if (o.mirrored > 0) mirror = add_mirrored(walk, surface, &o, *left, color);
+    if (passes > 0) refracted = add_refracted(walk, surface, &o, passes, *left, color);
+    if (!is_first) return;
+    effects_pixel *pixel = walk->pixel;
+    pixel->shadow = lit.shadow, pixel->occlusion = lit.occlusion;
+    pixel->mirror = mirror, pixel->refracted = refracted;
+}
+
+bool effects_shade(const effects_scene *scene, reference_scratch *scratch, vec3 way,
+                   const reference_answer *first, effects_pixel *pixel)
+{
+    const mns_plan *plan = scene->plan;
+    effects_walk walk = {.scene = scene, .scratch = scratch, .pixel = pixel};
+    allowance all = {plan->look.effects.reflections, plan->look.effects.refractions, {1, 1, 1}};
+    effects_surface surface;
+    pixel->certain = true;
+    pixel->shadow = pixel->occlusion = 1;
+    pixel->mirror = pixel->refracted = INFINITY;
+    pixel->rays = 0;
+    if (!first->hit.hit) {
+        pixel->color[3] = plan->look.background[3];
+        environment_color(&scene->environment, way, pixel->color);
+        for (int c = 0; c < 3; c++) pixel->color[c] *= pixel->color[3];
+        return true;
+    }
+    surface_take(&walk, way, first, 1, &surface);
+    if (surface.inside) absorb(plan, first->hit.t, all.share);
+    surface_color(&walk, &surface, &all, true, pixel->color);
+    if (surface.inside) absorb(plan, first->hit.t, pixel->color);
+    pixel->color[3] = 1;
+    return !walk.failed;
+}
