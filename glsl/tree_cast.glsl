@@ -21,6 +21,9 @@ float cast_s = 0.0;     // the current piece
 float cast_stop = 0.0;
 float cast_next = 0.0;
 float cast_cover = 0.0; // up to here the leaves met have covered the ray
+#ifdef OVERLAPS
+float cast_past = 0.0;  // here the ray has crossed the surface for certain: the hit lies before
+#endif
 Leaf cast_leaf = Leaf(0u, 0u, 0.0, 0.0);
 bool cast_held = false; // the slots hold a leaf that is not done with
 int cast_work = 0;
@@ -126,6 +129,8 @@ int cast_solve(out float hit)
     int found = piece_solve(cast_s, cast_stop, cast_side, ROOT_STEPS, hit);
 #ifdef OVERLAPS
     if (found == PIECE_OPEN && cast_crossed()) {
+        cast_past = min(cast_past, cast_s);
+        cast_limit = min(cast_limit, cast_s);
         cast_next = FAR_AWAY;
         cast_stop = cast_leaf.end;
         found = PIECE_NONE;
@@ -148,6 +153,9 @@ Cast tree_cast(Ray ray, float begin, float limit, float side)
     cast_limit = limit;
     cast_side = side;
     cast_cover = begin;
+#ifdef OVERLAPS
+    cast_past = FAR_AWAY;
+#endif
     cast_held = false;
     cast_work = 0;
 #ifdef COUNTERS
@@ -201,6 +209,10 @@ Cast tree_cast(Ray ray, float begin, float limit, float side)
 #endif
     }
     if (best.t > limit && best.found == PIECE_HIT) best.found = PIECE_NONE;
+#ifdef OVERLAPS
+    // A crossing in the last digits of a stretch is left to what comes after; where no leaf knows that, this tells of it.
+    if (cast_past < limit && best.t > cast_past && best.found != PIECE_CAP) best.found = PIECE_OPEN;
+#endif
 #ifdef MAY_BE_INSIDE
     if (side > 0.0 && best.found == PIECE_NONE && cast_cover < limit) best.found = PIECE_OPEN; // it must come out
 #endif
