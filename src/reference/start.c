@@ -74,12 +74,28 @@ reference_start reference_start_of(const piece_balls *balls, const mns_field *fi
     return start;
 }
 
+/* The nearest of doubling steps at which the sign is proven to be the side's: a guess at where a ray is free
+ * of the surface that it leaves, where its slope is too near 0 to tell. */
+static double free_from(const piece_balls *balls, double at, double side)
+{
+    double longest = 0;
+    for (size_t i = 0; i < balls->count; i++) longest = fmax(longest, balls->chord[balls->item[i]].radius);
+    for (double step = longest * 0x1p-50; step < longest * 0x1p-8; step *= 2) {
+        piece_point there;
+        piece_point_at(balls, at + step, &there);
+        if (side * there.value > there.error) return at + step;
+    }
+    return at;
+}
+
 reference_start reference_start_from(const piece_balls *balls, const reference_ray *ray, double side)
 {
     reference_start start = {.side = side, .from = -ray->base};
     piece_point at;
-    if (!side_after(balls, -ray->base, &start)) return start;
-    piece_point_at(balls, start.from, &at);
-    start.certain = start.side == side && side * at.value > at.error;
-    return start;
+    if (side_after(balls, -ray->base, &start) && start.side == side) {
+        piece_point_at(balls, start.from, &at);
+        start.certain = side * at.value > at.error;
+        if (start.certain) return start;
+    }
+    return (reference_start){.side = side, .from = free_from(balls, -ray->base, side)};
 }
