@@ -2,10 +2,10 @@
  * refracted ray. */
 #include "effects/effects.h"
 
+#include "base/color.h"
 #include "base/memory.h"
 #include "effects/shared.h"
 #include "effects/walk.h"
-#include "shade/shade.h"
 
 #include <string.h>
 
@@ -21,7 +21,7 @@ mns_status effects_begin(effects_scene *scene, const mns_plan *plan, const mns_r
     if (!scene->radiance) return status_no_memory(error, "while tracing a frame");
     for (size_t i = 0; i < count; i++)
         for (int c = 0; c < 3; c++)
-            scene->radiance[i][c] = plan->light[i].strength * (double)shade_linear(plan->light[i].color[c]);
+            scene->radiance[i][c] = plan->light[i].strength * color_linear(plan->light[i].color[c]);
     return environment_begin(&scene->environment, plan, error);
 }
 

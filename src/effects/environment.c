@@ -1,7 +1,7 @@
 #include "effects/environment.h"
 
+#include "base/color.h"
 #include "effects/shared.h"
-#include "shade/shade.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -21,7 +21,7 @@ mns_status environment_begin(environment *e, const mns_plan *plan, mns_error *er
                        .right = turned(up, (vec3){1, 0, 0}),
                        .up = up,
                        .back = turned(up, (vec3){0, 0, 1})};
-    for (int c = 0; c < 3; c++) e->color[c] = (double)shade_linear(plan->look.background[c]);
+    for (int c = 0; c < 3; c++) e->color[c] = color_linear(plan->look.background[c]);
     return plan->features & FEATURE_ENVIRONMENT ? image_picture_read(plan->environment, &e->map, error)
                                                 : MNS_OK;
 }

@@ -1,6 +1,7 @@
 /* Reads pictures of any maker: an OpenEXR of scan lines, or a PNG through libpng's simple face. */
 #include "image/picture.h"
 
+#include "base/color.h"
 #include "base/memory.h"
 #include "image/exr.h"
 
@@ -68,29 +69,31 @@ static mns_status check_png(const char *path, int64_t size, const png_image *png
 static mns_status read_png(const char *path, int64_t size, image_picture *picture, mns_error *error)
 {
     png_image png = {.version = PNG_IMAGE_VERSION};
-    uint16_t *linear = NULL;
+    png_byte *levels = NULL;
+    float linear[256];
     mns_status status = MNS_ERROR_INPUT;
     if (!png_image_begin_read_from_file(&png, path)) {
         status_fail(error, status, "%s: not a whole PNG: %s", path, png.message);
         goto done;
     }
-    png.format = PNG_FORMAT_LINEAR_RGB;
+    png.format = PNG_FORMAT_RGB; /* of 16-bit linear light libpng has but 8 bits' worth */
     status = check_png(path, size, &png, error);
     if (!status) status = take_size(picture, path, (int)png.width, (int)png.height, error);
     if (status) goto done;
     size_t count = (size_t)png.width * (size_t)png.height * 3;
-    linear = memory_array(count, sizeof *linear);
-    if (!linear) {
+    levels = memory_array(count, sizeof *levels);
+    if (!levels) {
         status = status_no_memory(error, "reading a picture");
         goto done;
     }
-    if (!png_image_finish_read(&png, &(png_color){0, 0, 0}, linear, 0, NULL)) {
+    if (!png_image_finish_read(&png, &(png_color){0, 0, 0}, levels, 0, NULL)) {
         status = status_fail(error, MNS_ERROR_INPUT, "%s: not a whole PNG: %s", path, png.message);
         goto done;
     }
-    for (size_t i = 0; i < count; i++) picture->rgb[i] = (float)linear[i] / 65535;
+    for (int k = 0; k < 256; k++) linear[k] = (float)color_linear(k / 255.0);
+    for (size_t i = 0; i < count; i++) picture->rgb[i] = linear[levels[i]];
 done:
-    free(linear);
+    free(levels);
     png_image_free(&png);
     return status;
 }

@@ -1,4 +1,5 @@
 /* PNG: linear premultiplied float to 8-bit sRGB, with alpha where any pixel is not opaque. */
+#include "base/color.h"
 #include "base/memory.h"
 #include "image/image.h"
 #include "image/output.h"
@@ -22,14 +23,11 @@ typedef struct image_sink {
 } image_sink;
 
 /* The linear value at which the rounded sRGB level becomes k, for k = 1..255: inverse transfer of (k - 1/2) /
- * 255. A search in it is the rounded transfer function itself, with no power a pixel. IEC 61966-2-1. */
+ * 255. A search in it is the rounded transfer function itself, with no power a pixel. */
 static void level_starts(double start[LEVELS])
 {
     start[0] = -INFINITY;
-    for (int k = 1; k < LEVELS; k++) {
-        double encoded = (k - 0.5) / 255;
-        start[k] = encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
-    }
+    for (int k = 1; k < LEVELS; k++) start[k] = color_linear((k - 0.5) / 255);
 }
 
 /* The last level that starts at or below `linear`; 0 for a NaN. */

@@ -1,5 +1,6 @@
 #include "shade/shade.h"
 
+#include "base/color.h"
 #include "shade/palette.h"
 
 #include <string.h>
@@ -12,7 +13,7 @@ typedef struct shade_block {
 
 float shade_linear(double srgb)
 {
-    return (float)(srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4));
+    return (float)color_linear(srgb);
 }
 
 static void put(float to[4], vec3 v, double w)
