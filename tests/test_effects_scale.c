@@ -220,8 +220,8 @@ static void a_scene_has_no_size_of_its_own(void **state)
         effects_fixture f;
         effects_fixture_open(&f, field, (vec3){0, 0, 6 * sizes[i]}, (vec3){0, 0, 0}, &look);
         for (int k = 0; k < 64; k++)
-            pixels[i][k] =
-                effects_fixture_shade(&f, (vec3){0.05 * (k % 8) - 0.175, 0.05 * (k / 8) - 0.175, -1}, NULL);
+            pixels[i][k] = effects_fixture_shade(
+                &f, (vec3){0.05 * (k % 8) - 0.175, 0.00625 * (k - k % 8) - 0.175, -1}, NULL);
         effects_fixture_close(&f);
         mns_field_destroy(field);
     }
