@@ -509,8 +509,10 @@ typedef struct mns_stats {
     bool counted;                /* options.counters: */
     double work[MNS_WORK_COUNT]; /* means a ray */
     uint64_t programs, passes,
-        buffers;                      /* made and held by the renderer so far; passes of this frame's plan */
-    uint64_t programs_kept;           /* of the programs, those that had been kept from an earlier run */
+        buffers;            /* made and held by the renderer so far; passes of this frame's plan */
+    uint64_t programs_kept; /* of the programs, those that had been kept from an earlier run */
+    double t_unit; /* scene units that 1 in MNS_PLANE_DEPTH stands for: 1, or another power of two where
+                      floats could not hold this field's lengths in scene units (docs/domain.md) */
     double color_range[2];            /* legend: what the ends of the colour map stand for; 0,0 without */
     const char *color_by, *color_map; /* "" without */
 } mns_stats;
@@ -522,7 +524,7 @@ MNS_API const mns_plan *mns_frame_plan(const mns_frame *frame);
 typedef enum mns_plane {                      /* GL textures of a frame; a host may sample them */
                          MNS_PLANE_COLOR = 0, /* RGBA32F, linear, premultiplied */
                          MNS_PLANE_DEPTH, /* RG32F: t and its low word, +inf on a miss (t is the distance from
-                                             the eye along the unit ray) */
+                                             the eye along the unit ray, in units of mns_stats.t_unit) */
                          MNS_PLANE_NORMAL, /* RGBA32F: outward normal, and w: 1 certain, 0 undecided; 0,0,0 on
                                               a miss */
 } mns_plane;
@@ -542,6 +544,8 @@ typedef struct mns_image {
     float *normal;
     float *certain; /* 1, or 0 where undecided */
     float *t_error; /* bound on the error of t + t_lo; NULL where the method gives none */
+    double t_unit;  /* scene units that 1 in a distance here (t, t_lo, t_error, mirror_t, refract_t) stands
+                       for; 1 but at the ends of what floats  hold, see mns_stats.t_unit; 0: 1 */
     float *work;    /* MNS_WORK_COUNT counts a pixel, with options.counters; else NULL */
     /* Terms of the look's effects at the first hit; NULL where the effect is off. */
     float *shadow;          /* mean share of the casting lights that reaches it; 1 on a miss */
@@ -561,7 +565,8 @@ MNS_API mns_status mns_image_heat(const mns_image *image, mns_work count, mns_co
 /* Writes an image: .png (8-bit sRGB with alpha where any pixel is not opaque) or .exr (float32 R G B A, t,
  * t.lo, N.X, N.Y, N.Z, certain and, where there are some, t.err, work.nodes, work.leaves, work.balls,
  * work.rounds, shadow, occlusion, mirror.t, refract.t and certain.effects, ZIP-compressed), written beside
- * the name and renamed. Errors: USAGE (unknown ending), IO, MEMORY. */
+ * the name and renamed. Errors: USAGE (unknown ending), IO, MEMORY, UNSUPPORTED
+ * (.exr of distances that floats do not hold: t_unit is not 1). */
 MNS_API mns_status mns_image_write(const mns_image *image, const char *path, mns_error *error);
 /* Reads back an .exr that mns_image_write wrote. Errors: IO, INPUT, MEMORY. */
 MNS_API mns_status mns_image_read(const char *path, mns_image **image, mns_error *error);

@@ -35,9 +35,10 @@ static const input inputs[] = {
     {"strengths beyond", 1, {1, 1}, 2.01e6, 0.2, 5, "strength"},
     {"negative strengths beyond", 1, {1, 1}, -2.01e6, 0.2, 5, "strength"},
     {"a level below the limit", 1, {1, 1}, 1, 0.99e-7, 5, "strength"},
-    {"small radii at the limit", 1e-15, {1e-15, 1e-15}, 1, 0.2, 5e-15, ""},
-    {"small radii beyond", 1e-16, {0.99e-15, 0.99e-15}, 1, 0.2, 5e-15, "lengths"},
-    {"distances beyond", 1e15, {1e13, 1e13}, 1, 0.2, 5e13, "lengths"},
+    {"small radii at the limit", 1e-30, {1e-30, 1e-30}, 1, 0.2, 5e-30, ""},
+    {"small radii beyond", 1e-31, {0.99e-30, 0.99e-30}, 1, 0.2, 5e-30, "lengths"},
+    {"distances at the limit", 1e37, {1e36, 1e36}, 1, 0.2, 9.5e37, ""},
+    {"distances beyond", 1e37, {1e36, 1e36}, 1, 0.2, 1.01e38, "lengths"},
     {"two limits", 1, {1, 0.99e-6}, 1, 0.2, 1.01e5, "radius-ratio far-eye"},
 };
 
@@ -69,6 +70,8 @@ static void report_of(const mns_field *field, const mns_view *view, domain_repor
     view_frame frame;
     plan_facts facts;
     view_basis(view, &frame);
+    const double unit = field_unit(field);
+    frame.eye = vec3_make(frame.eye.x / unit, frame.eye.y / unit, frame.eye.z / unit);
     plan_facts_of(field, &frame, &facts);
     domain_check(field, facts.eye_distance, facts.farthest, report);
 }
@@ -148,9 +151,9 @@ static void hit_limits(const mns_field *field, const mns_view *view, size_t *act
         size_t around = 0;
         double here = 0;
         for (size_t b = 0; b < field->p.count; b++) {
-            double u = 0, r = field_radius(field, b);
+            double u = 0, unit = field_unit(field), r = mns_field_radius(field, b);
             for (int a = 0; a < 3; a++) {
-                double d = (view->eye[a] + hit.t * way[a] - field->p.axis[a][b]) / r;
+                double d = (view->eye[a] + hit.t * way[a] - field->p.axis[a][b] * unit) / r;
                 u += d * d;
             }
             if (u >= 1) continue;
@@ -169,7 +172,6 @@ static void add_name(char *text, size_t size, const char *name)
     snprintf(text + used, size - used, "%s%s", used ? " " : "", name);
 }
 
-/* A field that cannot even be made breaks what the table says of lengths. */
 static void the_suites_cases_break_what_their_table_says(void **state)
 {
     (void)state;
@@ -181,10 +183,7 @@ static void the_suites_cases_break_what_their_table_says(void **state)
         mns_error error;
         domain_report report;
         char names[200];
-        if (stiff_build(&cases[i], &field, &view, &error)) {
-            if (!strstr(cases[i].breaks, "lengths")) fail_msg("%s: %s", cases[i].name, error.text);
-            continue;
-        }
+        if (stiff_build(&cases[i], &field, &view, &error)) fail_msg("%s: %s", cases[i].name, error.text);
         report_of(field, &view, &report);
         names_of(&report, names, sizeof names);
         size_t active = 0;

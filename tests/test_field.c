@@ -166,18 +166,26 @@ static void senseless_options_are_usage_errors(void **state)
     }
 }
 
-static void numbers_beyond_the_shaders_are_refused(void **state)
+static void numbers_beyond_doubles_are_refused(void **state)
 {
     (void)state;
     mns_field *f = NULL;
     mns_error error;
-    const double far[2][3] = {{0, 0, 0}, {0, 1e31, 0}};
+    const double far[2][3] = {{0, 0, 0}, {0, 1e301, 0}};
     particles p = make_particles(2, far);
     assert_int_equal(field_from_particles(&p, NULL, "file", &f, &error), MNS_ERROR_UNSUPPORTED);
-    assert_non_null(strstr(error.text, "particle 1: y = 1e+31"));
-    mns_input_options tiny = {.radius = 1, .radius_scale = 1e-300};
+    assert_non_null(strstr(error.text, "particle 1: y = 1e+301"));
     p.axis[1][1] = 1;
+    mns_input_options tiny = {.radius = 1e-200, .radius_scale = 1e-200};
     assert_int_equal(field_from_particles(&p, &tiny, "file", &f, &error), MNS_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(error.text, "a radius comes to 0"));
+    tiny.radius_scale = 1;
+    assert_int_equal(field_from_particles(&p, &tiny, "file", &f, &error), MNS_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(error.text, "radii from 1e-200 and lengths to 1"));
+    p.strength = malloc(2 * sizeof *p.strength);
+    p.strength[0] = 1, p.strength[1] = -1e31;
+    assert_int_equal(field_from_particles(&p, NULL, "file", &f, &error), MNS_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(error.text, "particle 1: strength -1e+31"));
     particles_free(&p);
 }
 
@@ -275,7 +283,7 @@ int main(void)
         cmocka_unit_test(surface_radii_divide_by_the_core),
         cmocka_unit_test(surface_radii_need_a_level_below_one),
         cmocka_unit_test(senseless_options_are_usage_errors),
-        cmocka_unit_test(numbers_beyond_the_shaders_are_refused),
+        cmocka_unit_test(numbers_beyond_doubles_are_refused),
         cmocka_unit_test(host_arrays_are_copied_by_stride),
         cmocka_unit_test(an_empty_host_field_is_legal),
         cmocka_unit_test(host_arrays_are_checked),

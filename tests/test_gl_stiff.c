@@ -116,16 +116,37 @@ static void beyond_the_domain_is_refused_in_clear_words_or_shown(void **state)
 {
     gate g;
     size_t failures;
-    json_t *suite = run(*state, "list:exact", "lengths-1e38", MNS_KERNEL_DEFAULT, &g, &failures);
+    json_t *suite = run(*state, "list:exact", "lengths-1e-38-to-1e38", MNS_KERNEL_DEFAULT, &g, &failures);
     json_t *one = json_array_get(json_object_get(suite, "cases"), 0);
     json_t *line = json_array_get(json_object_get(one, "runs"), 0);
     assert_int_equal(failures, 0);
     assert_false(json_is_true(json_object_get(one, "inside")));
-    assert_string_equal(json_string_value(json_array_get(json_object_get(one, "limits"), 0)), "lengths");
+    assert_string_equal(json_string_value(json_array_get(json_object_get(one, "limits"), 2)), "lengths");
     assert_string_equal(json_string_value(json_object_get(line, "verdict")), "refused");
-    assert_non_null(strstr(json_string_value(json_object_get(line, "note")), "scale the input"));
+    assert_non_null(strstr(json_string_value(json_object_get(line, "note")), "take the method reference"));
     assert_true(json_is_null(json_object_get(line, "ms")));
     json_decref(suite);
+}
+
+/* No method and no context draws anything wrong of lengths at the ends of what numbers hold. */
+static void lengths_at_every_end_hold(void **state)
+{
+    static const char *const names[] = {"lengths-1e38", "lengths-subnormal"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        gate g;
+        size_t failures;
+        json_t *suite = run(*state, "list:exact,tile:exact,fbvh:exact,bvh:exact,reference:exact", names[i],
+                            MNS_KERNEL_DEFAULT, &g, &failures);
+        json_t *runs = json_object_get(json_array_get(json_object_get(suite, "cases"), 0), "runs");
+        assert_int_equal(json_array_size(runs), 5);
+        for (size_t k = 0; k < 5; k++) {
+            json_t *line = json_array_get(runs, k);
+            if (strcmp(json_string_value(json_object_get(line, "verdict")), "holds") != 0)
+                fail_msg("%s, %s: %s", names[i], json_string_value(json_object_get(line, "name")),
+                         json_string_value(json_object_get(line, "note")));
+        }
+        json_decref(suite);
+    }
 }
 
 /* What a run of the case comes to, made up. */
@@ -169,6 +190,7 @@ int main(void)
         cmocka_unit_test(the_trees_hold_too),
         cmocka_unit_test(a_model_that_fails_is_shown_and_not_gated),
         cmocka_unit_test(beyond_the_domain_is_refused_in_clear_words_or_shown),
+        cmocka_unit_test(lengths_at_every_end_hold),
         cmocka_unit_test(verdicts_are_as_defined),
     };
     return cmocka_run_group_tests_name("stiff", tests, draw_fixture_setup, draw_fixture_teardown);

@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/status.h"
 #include "base/vec.h"
+#include "image/image.h"
 
 #include <math.h>
 #include <string.h>
@@ -58,11 +59,6 @@ static metrics_spread spread_of_numbers(double *value, size_t count)
 
 /* ---- One pixel
  * ----------------------------------------------------------------------------------------------------- */
-
-static double image_t(const mns_image *image, size_t i)
-{
-    return isfinite(image->t[i]) ? (double)image->t[i] + (double)image->t_lo[i] : INFINITY;
-}
 
 static bool is_decided(const truth_planes *truth, const mns_image *image, size_t i)
 {
@@ -124,7 +120,7 @@ typedef struct columns {
 
 static void compare_pixel(const truth_planes *truth, const mns_image *image, size_t i, const columns *c)
 {
-    double t = image_t(image, i);
+    double t = image_distance(image, i);
     c->t[i] = c->footprint[i] = c->normal[i] = NAN;
     if (!isfinite(t) || !isfinite(truth->t[i]) || !is_decided(truth, image, i)) return;
     c->t[i] = relative_error(truth, i, t);
@@ -139,7 +135,7 @@ static void compare_pixel(const truth_planes *truth, const mns_image *image, siz
 static double residual(const truth_planes *truth, const mns_image *image, size_t i,
                        const mns_reference *reference, double iso)
 {
-    double t = image_t(image, i), d[3], point[3];
+    double t = image_distance(image, i), d[3], point[3];
     if (!reference || !truth->has_view || !isfinite(t)) return NAN;
     int x = (int)(i % (size_t)truth->width), y = (int)(i / (size_t)truth->width);
     mns_view_ray(&truth->view, x + 0.5, y + 0.5, d);
@@ -180,7 +176,7 @@ static void count_masks(const truth_planes *truth, const mns_image *image, metri
         m->invented_decided += decided && has && !should;
         m->undecided += !(image->certain[i] > 0.5f);
         if (decided && has && should && truth->radius)
-            m->wrong_root += is_wrong_root(truth, i, image_t(image, i));
+            m->wrong_root += is_wrong_root(truth, i, image_distance(image, i));
     }
 }
 
@@ -269,7 +265,7 @@ static void find_worst(const truth_planes *truth, const mns_image *image, metric
 {
     worst_list list[3] = {{.count = 0}, {.count = 0}, {.count = 0}};
     for (size_t i = 0; i < m->pixels; i++) {
-        double t = image_t(image, i);
+        double t = image_distance(image, i);
         bool has = isfinite(t), should = isfinite(truth->t[i]);
         if (!(has || should) || !is_decided(truth, image, i)) continue;
         metrics_pixel p = {.x = (int)(i % (size_t)truth->width),

@@ -4,6 +4,7 @@
 #include "base/status.h"
 #include "compare/metrics.h"
 #include "compare/png_memory.h"
+#include "image/image.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -62,7 +63,7 @@ static double depth_position(const truth_planes *truth, double t, double true_t)
 static color depth_color(const truth_planes *truth, const mns_image *image, size_t i)
 {
     if (metrics_mask_of(truth, image, i) != METRICS_MASK_BOTH) return NOTHING;
-    return diverging(depth_position(truth, (double)image->t[i] + (double)image->t_lo[i], truth->t[i]));
+    return diverging(depth_position(truth, image_distance(image, i), truth->t[i]));
 }
 
 static color mask_color(const truth_planes *truth, const mns_image *image, size_t i)

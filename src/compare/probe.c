@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/status.h"
+#include "image/image.h"
 
 #include <math.h>
 
@@ -67,7 +68,7 @@ static mns_status solve(const probe *p, uint32_t index, probe_pixel *result, mns
     mns_status status = mns_reference_trace(p->reference, p->view->eye, direction, &hit, error);
     if (status) return status;
     bool has = isfinite(p->image->t[index]) != 0;
-    double t = has ? (double)p->image->t[index] + (double)p->image->t_lo[index] : INFINITY;
+    double t = image_distance(p->image, index);
     *result = (probe_pixel){.true_hit = hit.hit, .pixel = {.x = x, .y = y, .t = t, .error = NAN}};
     result->pixel.truth = hit.hit ? hit.t : INFINITY;
     if (has != hit.hit) {

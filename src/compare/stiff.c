@@ -171,13 +171,14 @@ static const stiff_case cases[] = {
     /* Lengths at what numbers hold. */
     ONE("lengths-1e-15", "radii from 1.5e-15: their fourth powers are no floats", "", 0, stiff_scaled, 1e-14),
     ONE("lengths-1e15", "distances to 7e14: their cubes are no floats", "", 0, stiff_scaled, 2e14),
-    ONE("lengths-1e-20", "radii of 1e-21: their squares are no floats", LENGTHS, 0, stiff_scaled, 1e-20),
-    ONE("lengths-1e20", "radii of 1e19", LENGTHS, 0, stiff_scaled, 1e20),
+    ONE("lengths-1e-20", "radii of 1e-21: their squares are no floats", "", 0, stiff_scaled, 1e-20),
+    ONE("lengths-1e20", "radii of 1e19: their squares are no floats", "", 0, stiff_scaled, 1e20),
     ONE("lengths-1e-38", "radii at the least that a float holds", LENGTHS, 0, stiff_scaled, 1e-37),
     ONE("lengths-1e38", "radii at the most that a float holds", LENGTHS, 0, stiff_scaled, 1e38),
+    ONE("lengths-1e290", "radii whose squares are no doubles", LENGTHS, 0, stiff_scaled, 1e290),
     ONE("lengths-subnormal", "radii that are subnormal doubles", LENGTHS, 0, stiff_scaled, 1e-309),
-    ONE("lengths-1e-38-to-1e38", "a radius at either end of a float", LENGTHS " " RATIO, 0, stiff_spread,
-        1e-38, 1e38),
+    ONE("lengths-1e-38-to-1e38", "a radius at either end of a float", RATIO " " OFFSET " " LENGTHS, 0,
+        stiff_spread, 1e-38, 1e38),
 };
 
 const stiff_case *stiff_cases(size_t *count)

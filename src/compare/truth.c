@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/status.h"
 #include "compare/truth_cache.h"
+#include "image/image.h"
 
 #include <math.h>
 #include <omp.h>
@@ -161,11 +162,12 @@ mns_status truth_from_image(const mns_image *image, truth_planes **result, mns_e
     mns_status status = truth_allocate(image->width, image->height, false, image->rgba != NULL, &p, error);
     if (status) return status;
     size_t pixels = (size_t)image->width * (size_t)image->height;
+    const double unit = image->t_unit > 0 ? image->t_unit : 1;
     p->ms = NAN;
     for (size_t i = 0; i < pixels; i++) {
         bool hit = isfinite(image->t[i]) != 0;
-        p->t[i] = hit ? (double)image->t[i] + (double)image->t_lo[i] : INFINITY;
-        p->t_error[i] = hit && image->t_error ? image->t_error[i] : 0;
+        p->t[i] = image_distance(image, i);
+        p->t_error[i] = hit && image->t_error ? image->t_error[i] * unit : 0;
         p->certain[i] = image->certain[i] > 0.5f;
         for (int c = 0; c < 3; c++) p->normal[3 * i + (size_t)c] = image->normal[3 * i + (size_t)c];
     }

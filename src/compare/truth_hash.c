@@ -57,6 +57,7 @@ static void hash_field(hash_state *h, const mns_field *field)
     hash_word(h, field->p.count);
     hash_word(h, field->kernel);
     hash_double(h, field->iso);
+    if (field_unit(field) != 1) hash_double(h, field_unit(field));
     for (int axis = 0; axis < 3 && field->p.count; axis++)
         hash_doubles(h, field->p.axis[axis], field->p.count);
     for (size_t i = 0; i < field->p.count; i++) {

@@ -10,10 +10,12 @@
 #include <string.h>
 #include <time.h>
 
-/* The shaders work in floats on lengths over R; beyond this no power of two of headroom is left for them. */
-#define LARGEST 1e30
+/* Of a coordinate or radius: what the field spans stays a double. */
+#define LONGEST 1e300
+/* Of a strength: the shaders take its products in floats. */
+#define STRONGEST 1e30
 
-/* How the radii come about: R = uniform for all, or the particles' own times factor. */
+/* How the radii come about: the particles' own times factor, or where that is 0, R = uniform for all. */
 typedef struct radius_rule {
     double uniform, factor;
     const char *source;
@@ -75,29 +77,29 @@ static mns_status check_position(const particles *p, mns_error *error)
 {
     for (int k = 0; k < 3; k++)
         for (size_t i = 0; i < p->count; i++)
-            if (!(fabs(p->axis[k][i]) <= LARGEST))
+            if (!(fabs(p->axis[k][i]) <= LONGEST))
                 return status_fail(
                     error, MNS_ERROR_UNSUPPORTED,
                     "particle %zu: %c = %g lies beyond %g, the largest coordinate; scale the input", i,
-                    "xyz"[k], p -> axis[k][i], LARGEST);
+                    "xyz"[k], p -> axis[k][i], LONGEST);
     return MNS_OK;
 }
 
 static mns_status check_radius(double radius, mns_error *error)
 {
-    if (radius >= 1 / LARGEST && radius <= LARGEST) return MNS_OK;
+    if (radius > 0 && radius <= LONGEST) return MNS_OK;
     return status_fail(error, MNS_ERROR_UNSUPPORTED,
-                       "a radius comes to %g; expected %g to %g: scale the input", radius, 1 / LARGEST,
-                       LARGEST);
+                       "a radius comes to %g; expected one above 0 and up to %g: scale the input", radius,
+                       LONGEST);
 }
 
 static mns_status check_strength(const particles *p, mns_error *error)
 {
     for (size_t i = 0; p->strength && i < p->count; i++)
-        if (!(fabs(p->strength[i]) <= LARGEST))
+        if (!(fabs(p->strength[i]) <= STRONGEST))
             return status_fail(error, MNS_ERROR_UNSUPPORTED,
                                "particle %zu: strength %g lies beyond %g, the largest; scale the input", i,
-                               p->strength[i], LARGEST);
+                               p->strength[i], STRONGEST);
     return MNS_OK;
 }
 
@@ -112,18 +114,35 @@ static void range_of(const double *value, size_t count, double *min, double *max
     *min = low, *max = high;
 }
 
+static mns_status choose_unit(mns_field *f, const particles *p, double radius_min, double radius_max,
+                              mns_error *error)
+{
+    double widest = 0, farthest = 0, low, high;
+    f->unit = 1;
+    if (!p->count) return MNS_OK;
+    for (int k = 0; k < 3; k++) {
+        range_of(p->axis[k], p->count, &low, &high);
+        widest = fmax(widest, high - low);
+        farthest = fmax(farthest, fmax(fabs(low), fabs(high)));
+    }
+    return field_choose_unit(radius_min, widest + 2 * radius_max, farthest, &f->unit, error);
+}
+
 /* Puts the rule's radii into f->p and measures them; an array of equal radii becomes one number. */
 static mns_status apply_radii(mns_field *f, const particles *p, const radius_rule *rule, mns_error *error)
 {
     double low = rule->uniform, high = rule->uniform;
-    if (rule->uniform <= 0 && p->count) {
+    const bool is_uniform = !(rule->factor > 0);
+    if (!is_uniform && p->count) {
         range_of(p->radius, p->count, &low, &high);
         low *= rule->factor, high *= rule->factor;
-    } else if (rule->uniform <= 0) {
+    } else if (!is_uniform) {
         low = high = 1;
     }
     mns_status status = check_radius(low, error);
     if (!status) status = check_radius(high, error);
+    if (status) return status;
+    status = choose_unit(f, p, low, high, error);
     if (status) return status;
     f->radius_source = rule->source;
     f->radius_min = low, f->radius_max = high;
@@ -196,6 +215,7 @@ mns_status field_from_particles(particles *p, const mns_input_options *options, 
     if (status) goto fail;
     measure_strength(f, p);
     take(f, p);
+    field_enter_unit(f);
     measure_box(f);
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -216,5 +236,5 @@ void mns_field_destroy(mns_field *field)
 
 double mns_field_radius(const mns_field *field, size_t index)
 {
-    return field_radius(field, index);
+    return field_radius(field, index) * field_unit(field);
 }

@@ -35,8 +35,10 @@ void particles_free(particles *p); /* frees the members, zeroes *p */
 /* Fills the column's min and max from its `count` values (0, 0 where there are none). */
 void particles_column_range(particles_column *column, size_t count);
 
+/* All lengths in it, but for the cell's, are in the field's own unit. */
 struct mns_field {
     uint64_t stamp; /* nanoseconds of the clock when it was made: tells it from another at the same address */
+    double unit;    /* scene units in one of the field's, a power of two (unit.c); 0: 1 */
     particles p;    /* p.radius holds R, or NULL where all are uniform_radius; never radius_is_surface */
     double uniform_radius; /* where p.radius is NULL */
     mns_kernel kernel;     /* never DEFAULT */
@@ -53,6 +55,14 @@ struct mns_field {
 mns_status field_from_particles(particles *p, const mns_input_options *options, const char *radius_source,
                                 mns_field **field, mns_error *error);
 
+/* A unit in which lengths between the smallest radius and the field's extent lie about 1, so that floats and
+ * doubles can square them: 1 where they can as it is. `farthest` is the largest |coordinate|. Errors:
+ * UNSUPPORTED. */
+mns_status field_choose_unit(double radius_min, double extent, double farthest, double *unit,
+                             mns_error *error);
+/* Puts the lengths of a field in scene units into its own. */
+void field_enter_unit(mns_field *f);
+
 /* Median distance from a ball to its nearest distinct neighbour (a coincident centre is none); 0 where there
  * is none (fewer than two distinct centres). Parallel, over a tree of boxes; exact, not sampled. Errors:
  * MEMORY, UNSUPPORTED. */
@@ -61,6 +71,12 @@ mns_status field_spacing(const particles *p, double *median, mns_error *error);
 /* Exact median of non-negative finite values, the mean of the middle two where count is even; 0 of none. */
 double field_median(const double *value, size_t count);
 
+static inline double field_unit(const mns_field *f)
+{
+    return f->unit > 0 ? f->unit : 1;
+}
+
+/* In the field's own unit. */
 static inline double field_radius(const mns_field *f, size_t i)
 {
     return f->p.radius ? f->p.radius[i] : f->uniform_radius;

@@ -126,11 +126,12 @@ fail:
 void mns_field_get_info(const mns_field *field, mns_field_info *info)
 {
     const particles *p = &field->p;
+    const double unit = field_unit(field);
     *info = (mns_field_info){
         .count = p->count,
-        .radius_min = field->radius_min,
-        .radius_median = field->radius_median,
-        .radius_max = field->radius_max,
+        .radius_min = field->radius_min * unit,
+        .radius_median = field->radius_median * unit,
+        .radius_max = field->radius_max * unit,
         .strength_min = field->strength_min,
         .strength_max = field->strength_max,
         .radius_is_uniform = !p->radius,
@@ -144,10 +145,11 @@ void mns_field_get_info(const mns_field *field, mns_field_info *info)
         .rows_skipped_why = p->rows_skipped_why,
         .has_cell = p->has_cell,
     };
-    memcpy(info->lo, field->lo, sizeof info->lo);
-    memcpy(info->hi, field->hi, sizeof info->hi);
-    memcpy(info->effective_lo, field->effective_lo, sizeof info->effective_lo);
-    memcpy(info->effective_hi, field->effective_hi, sizeof info->effective_hi);
+    for (int k = 0; k < 3; k++) {
+        info->lo[k] = field->lo[k] * unit, info->hi[k] = field->hi[k] * unit;
+        info->effective_lo[k] = field->effective_lo[k] * unit;
+        info->effective_hi[k] = field->effective_hi[k] * unit;
+    }
     memcpy(info->cell_origin, p->cell_origin, sizeof info->cell_origin);
     memcpy(info->cell, p->cell, sizeof info->cell);
 }

@@ -16,6 +16,10 @@ enum { LEAF_POINTS = 8, TASK_POINTS = 8192 };
 /* Boxes smaller than this count as one place: squares of shorter distances underflow. */
 #define COINCIDENT 1e-150
 
+/* An extent between these is taken as it is; beyond, over a power of two. */
+#define EXTENT_LEAST 1e-60
+#define EXTENT_MOST  1e60
+
 typedef struct point {
     double at[3];
 } point;
@@ -161,6 +165,22 @@ static void search_leaf(const tree *t, const node *leaf, double *distance)
         distance[leaf->first + i] = sqrt(s.best[leaf->is_place ? 0 : i]);
 }
 
+/* A power of two about the extent of the centres, where its squares could leave the doubles; else 1. */
+static double spacing_unit(const particles *p)
+{
+    double extent = 0;
+    for (int k = 0; k < 3; k++) {
+        double low = p->axis[k][0], high = low;
+        for (size_t i = 1; i < p->count; i++) {
+            low = p->axis[k][i] < low ? p->axis[k][i] : low;
+            high = p->axis[k][i] > high ? p->axis[k][i] : high;
+        }
+        extent = fmax(extent, high - low);
+    }
+    bool plain = extent >= EXTENT_LEAST && extent <= EXTENT_MOST;
+    return plain || !(extent > 0) ? 1 : ldexp(1, ilogb(extent));
+}
+
 mns_status field_spacing(const particles *p, double *median, mns_error *error)
 {
     mns_status status = MNS_OK;
@@ -172,6 +192,7 @@ mns_status field_spacing(const particles *p, double *median, mns_error *error)
         return status_fail(error, MNS_ERROR_UNSUPPORTED,
                            "%zu particles without radii; expected at most %u, or give a radius", p->count,
                            UINT32_MAX / 2);
+    const double unit = spacing_unit(p);
     /* A tree of n points has fewer than 2 n nodes; pages never touched cost nothing. */
     tree t = {.points = memory_array(p->count, sizeof *t.points),
               .nodes = memory_array(p->count, 2 * sizeof *t.nodes)};
@@ -181,13 +202,13 @@ mns_status field_spacing(const particles *p, double *median, mns_error *error)
         goto done;
     }
     for (size_t i = 0; i < p->count; i++)
-        for (int k = 0; k < 3; k++) t.points[i].at[k] = p->axis[k][i];
+        for (int k = 0; k < 3; k++) t.points[i].at[k] = p->axis[k][i] / unit;
     build(&t, (uint32_t)p->count);
 #pragma omp parallel for schedule(dynamic, 256)
     for (size_t i = 0; i < t.node_count; i++)
         if (!t.nodes[i].child) search_leaf(&t, &t.nodes[i], distance);
     /* Infinite means that all centres coincide. */
-    *median = isfinite(distance[0]) ? field_median(distance, p->count) : 0;
+    *median = isfinite(distance[0]) ? field_median(distance, p->count) * unit : 0;
 done:
     free(distance);
     free(t.nodes);

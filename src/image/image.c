@@ -16,6 +16,7 @@ mns_status image_create(int width, int height, mns_image **image, mns_error *err
     mns_image *made = calloc(1, sizeof *made);
     if (!made) return status_no_memory(error, "making an image");
     made->width = width, made->height = height;
+    made->t_unit = 1;
     made->rgba = memory_array(pixels, 4 * sizeof(float));
     made->t = memory_array(pixels, sizeof(float));
     made->t_lo = memory_array(pixels, sizeof(float));
@@ -79,6 +80,11 @@ mns_status mns_image_write(const mns_image *image, const char *path, mns_error *
         return status_fail(error, MNS_ERROR_USAGE, "%s: unknown ending; expected .png or .exr", path);
     mns_status status = check(image, is_png, path, error);
     if (status != MNS_OK) return status;
+    if (!is_png && image->t_unit > 0 && image->t_unit != 1)
+        return status_fail(error, MNS_ERROR_UNSUPPORTED,
+                           "%s: distances in units of %g: an EXR's floats do not hold them in scene units; "
+                           "write a .png, or scale the input",
+                           path, image->t_unit);
 
     output_file output;
     status = output_open(&output, path, error);

@@ -1,5 +1,6 @@
 #include "plan/domain.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -23,13 +24,22 @@ static void check_most(domain_report *report, domain_limit limit, const char *wh
     report->line[report->count++] = text;
 }
 
-static void check_lengths(domain_report *report, double radius, double distance)
+bool domain_lengths_hold(const mns_field *field, double farthest)
 {
-    if (radius >= DOMAIN_RADIUS_LEAST && distance <= DOMAIN_DISTANCE_MOST) return;
-    char *text = report->text[report->count];
+    double unit = field_unit(field);
+    return field->radius_min * unit >= DOMAIN_RADIUS_LEAST && farthest * unit <= DOMAIN_DISTANCE_MOST;
+}
+
+static void check_lengths(domain_report *report, const mns_field *field, double farthest)
+{
+    double unit = field_unit(field), radius = field->radius_min * unit;
+    char *text = report->text[report->count], told[60] = "";
+    if (domain_lengths_hold(field, farthest)) return;
+    if (unit != 1) snprintf(told, sizeof told, ", told in units of %.6g", unit);
     snprintf(text, DOMAIN_LINE,
-             "%s: radii from %.4g, distances to %.4g; the stated domain holds %g to %g (docs/domain.md)",
-             names[DOMAIN_LENGTHS], radius, distance, DOMAIN_RADIUS_LEAST, DOMAIN_DISTANCE_MOST);
+             "%s: radii from %.4g%s, distances to %.4g%s; the stated domain holds %g to %g (docs/domain.md)",
+             names[DOMAIN_LENGTHS], radius, radius < DBL_MIN ? " (doubles there have lost digits)" : "",
+             farthest * unit, told, DOMAIN_RADIUS_LEAST, DOMAIN_DISTANCE_MOST);
     report->line[report->count++] = text;
 }
 
@@ -49,5 +59,5 @@ void domain_check(const mns_field *field, double eye_distance, double farthest, 
     check_most(report, DOMAIN_FAR_EYE, "the eye's distance / R_max", eye_distance / field->radius_max,
                DOMAIN_EYE_MOST);
     check_most(report, DOMAIN_STRENGTH, "|q| / L", strongest / field->iso, DOMAIN_STRENGTH_MOST);
-    check_lengths(report, field->radius_min, farthest);
+    check_lengths(report, field, farthest);
 }

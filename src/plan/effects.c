@@ -5,6 +5,9 @@
 
 #include <string.h>
 
+/* Of a light's place and radius, in the field's unit: what doubles can square. */
+#define LIGHT_MOST 1e60
+
 enum { LIGHTS_MOST = 256, RAYS_MOST = 4096, REFLECTIONS_MOST = 8, REFRACTIONS_MOST = 16 };
 
 /* ---- Checks
@@ -123,6 +126,30 @@ static mns_status take_environment(mns_plan *plan, mns_error *error)
     return plan->environment ? MNS_OK : status_no_memory(error, "while planning a frame");
 }
 
+/* Lengths to the field's own unit, in which light travels. */
+static mns_status enter_unit(mns_plan *plan, mns_error *error)
+{
+    mns_effects *e = &plan->look.effects;
+    for (size_t i = 0; i < plan->look.light_count; i++) {
+        mns_light *light = &plan->light[i];
+        double farthest = 0;
+        for (int a = 0; a < 3; a++) {
+            light->position[a] /= plan->unit;
+            farthest = fmax(farthest, fabs(light->position[a]));
+        }
+        light->radius /= plan->unit;
+        if (!(farthest <= LIGHT_MOST && light->radius <= LIGHT_MOST))
+            return status_fail(
+                error, MNS_ERROR_UNSUPPORTED,
+                "light %zu: position and radius reach to more than %g; expected it nearer to the "
+                "field, or a directional light",
+                i, LIGHT_MOST * plan->unit);
+    }
+    e->occlusion_reach /= plan->unit;
+    for (int c = 0; c < 3; c++) e->absorption[c] *= plan->unit;
+    return MNS_OK;
+}
+
 static void fill_effects(mns_look *look, const mns_field *field)
 {
     mns_effects *e = &look->effects;
@@ -200,6 +227,7 @@ mns_status plan_effects(mns_plan *plan, const mns_field *field, mns_error *error
                          FEATURE_REFRACTION | FEATURE_OCCLUSION | FEATURE_ENVIRONMENT | FEATURE_SKY;
     mns_status status = check_effects(&plan->look.effects, error);
     if (!status) status = take_lights(plan, error);
+    if (!status) status = enter_unit(plan, error);
     if (!status) status = take_environment(plan, error);
     if (status) return status;
     fill_effects(&plan->look, field);

@@ -32,9 +32,11 @@ static void print_effects(FILE *out, const mns_plan *plan)
     if (f & FEATURE_REFRACTION)
         fprintf(out, ", transmission %g through %d surfaces", e->transmission, e->refractions);
     if (f & FEATURE_ABSORPTION)
-        fprintf(out, ", absorption %g,%g,%g", e->absorption[0], e->absorption[1], e->absorption[2]);
+        fprintf(out, ", absorption %g,%g,%g", e->absorption[0] / plan->unit, e->absorption[1] / plan->unit,
+                e->absorption[2] / plan->unit);
     if (f & FEATURE_OCCLUSION)
-        fprintf(out, ", occlusion by %d rays of length %g", e->occlusion_rays, e->occlusion_reach);
+        fprintf(out, ", occlusion by %d rays of length %g", e->occlusion_rays,
+                e->occlusion_reach * plan->unit);
     if (f & FEATURE_SKY) fprintf(out, ", environment sky");
     if (f & FEATURE_ENVIRONMENT) fprintf(out, ", environment %s", plan->environment);
     fprintf(out, ", seed %lu", (unsigned long)e->seed);
@@ -62,7 +64,10 @@ static void print_plan(FILE *out, const mns_plan *plan, const mns_field *field)
     else
         fprintf(out, "balls %zu, %zu floats each; f(eye) %g; node pool %zu, at most %zu\n", field->p.count,
                 plan->ball_floats, plan->facts.eye_value, plan->pool_nodes, plan->pool_most);
-    fprintf(out, "coordinates from %.17g,%.17g,%.17g\n", plan->origin[0], plan->origin[1], plan->origin[2]);
+    const double *o = plan->origin, unit = plan->unit;
+    fprintf(out, "coordinates from %.17g,%.17g,%.17g", o[0] * unit, o[1] * unit, o[2] * unit);
+    if (unit != 1) fprintf(out, ", in units of %.17g", unit);
+    fprintf(out, "\n");
     fprintf(out, "features 0x%llx:", (unsigned long long)plan->features);
     for (int bit = 0; bit < FEATURE_COUNT; bit++)
         if (plan->features >> bit & 1 && feature_names[bit]) fprintf(out, " %s", feature_names[bit]);

@@ -301,37 +301,6 @@ static void plan_pool(mns_plan *plan, const mns_field *field)
         plan_leave_out(plan, "reading by texels", "this driver's buffer textures are too small");
 }
 
-static mns_status check_size(const mns_plan *plan, mns_error *error)
-{
-    const mns_limits *limits = &plan->limits;
-    int width = plan->frame.width, height = plan->frame.height;
-    int most_x = limits->max_texture_size < limits->max_viewport[0] ? limits->max_texture_size
-                                                                    : limits->max_viewport[0];
-    int most_y = limits->max_texture_size < limits->max_viewport[1] ? limits->max_texture_size
-                                                                    : limits->max_viewport[1];
-    if (width > most_x || height > most_y)
-        return status_fail(error, MNS_ERROR_UNSUPPORTED, "size %dx%d: this driver draws at most %dx%d", width,
-                           height, most_x, most_y);
-    return MNS_OK;
-}
-
-mns_status plan_check_limits(const mns_plan *plan, const mns_field *field, mns_error *error)
-{
-    const mns_limits *limits = &plan->limits;
-    const double smallest = 1e-15, largest = 1e15; /* what floats can square, and the square again */
-    if (field->p.count && (field->radius_min < smallest || plan->facts.farthest > largest))
-        return status_fail(error, MNS_ERROR_UNSUPPORTED,
-                           "radii from %g and distances to %g: floats hold %g to %g here; rescale the input",
-                           field->radius_min, plan->facts.farthest, smallest, largest);
-    size_t most = limits->max_storage_block / (plan->ball_floats * sizeof(float));
-    if (plan->features & FEATURE_QUADS) most /= 2; /* rectangles are kept twice */
-    if (field->p.count > most || field->p.count > 0x7fffffff)
-        return status_fail(error, MNS_ERROR_UNSUPPORTED,
-                           "%zu balls: this driver's storage blocks hold %zu of this field", field->p.count,
-                           most);
-    return MNS_OK;
-}
-
 static mns_status plan_list(mns_plan *plan, const mns_field *field, bool host, mns_error *error)
 {
     plan_balls(plan, field);
@@ -361,15 +330,17 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
     if (!status) status = mns_view_resolve(view, field, &plan->view, error);
     if (status) goto fail;
     view_basis(&plan->view, &plan->frame);
+    plan_enter_unit(plan, field);
     resolve_options(options, plan);
     plan->features = (uint64_t)field->kernel | (uint64_t)plan->options.solver << 3;
     plan_facts_of(field, &plan->frame, &plan->facts);
+    plan_lengths(plan, field, options, host);
     domain_check(field, plan->facts.eye_distance, plan->facts.farthest, &plan->domain);
     status = plan_look(look, field, plan, error);
     if (!status) status = plan_effects_check(plan, error);
-    if (!status) status = check_size(plan, error);
+    if (!status) status = plan_check_frame(plan, field, error);
     if (!status)
-        status = plan->options.method == MNS_METHOD_REFERENCE ? plan_reference(plan, field, host, error)
+        status = plan->options.method == MNS_METHOD_REFERENCE ? plan_reference(plan, host, error)
                  : plan->options.method >= MNS_METHOD_FBVH    ? plan_trees(plan, field, host, error)
                                                               : plan_list(plan, field, host, error);
     plan->options.tree = NULL; /* was borrowed for the call */

@@ -55,7 +55,7 @@ enum { FEATURE_COUNT = 44 };
 enum { PLAN_MOST = 16 }; /* passes; parts left out are at most PLAN_PARTS */
 enum { PLAN_PARTS = 40 };
 
-/* What the decisions hang on; see plan_facts_of. */
+/* What the decisions hang on; see plan_facts_of. Lengths are in the field's own unit. */
 typedef struct plan_facts {
     double eye_distance; /* from the box of the effective spheres; 0 inside */
     bool eye_in_ball;
@@ -77,7 +77,9 @@ struct mns_plan {
     size_t left_out_count;
     mns_limits limits;
     mns_options options; /* resolved: no zeros where zero means a default */
-    mns_view view;
+    mns_view view;       /* in scene units; lengths from here on are in the field's own, */
+    double unit;         /* which is so many of them */
+    double t_unit;       /* of the planes' distances, in scene units: 1, or unit where floats need it */
     view_frame frame;
     plan_facts facts;
     double origin[3];    /* of the GPU's coordinates */
@@ -85,7 +87,7 @@ struct mns_plan {
     double reach;        /* distance from the origin of the farthest ray start */
     double depth_range;  /* largest effective distance beyond the plane */
     double core_ratio;   /* core radius over R of every ball, where CORE without CORE_RADII */
-    mns_look look;       /* resolved; its lights are those of `light` */
+    mns_look look;       /* resolved, lengths in the field's unit; its lights are those of `light` */
     mns_light *light;    /* the plan's own, at least one */
     char *environment;   /* a map's file, where ENVIRONMENT */
     size_t color_column; /* where COLORS */
@@ -127,7 +129,15 @@ void plan_look_left_out(mns_plan *plan);
 /* Radius and strength a ball; the eye, the origin of coordinates, where rays begin. */
 void plan_balls(mns_plan *plan, const mns_field *field);
 void plan_eye(mns_plan *plan, const mns_field *field);
-/* Whether a frame of this size, and lengths such as these, can be drawn. Errors: UNSUPPORTED. */
+/* The plan's lengths from the view's, which are in scene units, to the field's own. */
+void plan_enter_unit(mns_plan *plan, const mns_field *field);
+/* The unit of the planes' distances; and the reference, where the method is left open and floats cannot hold
+ * the lengths. Needs the facts. */
+void plan_lengths(mns_plan *plan, const mns_field *field, const mns_options *options, bool host);
+/* Whether a frame of this size, with distances such as these in its planes, can be made by any method.
+ * Errors: UNSUPPORTED. */
+mns_status plan_check_frame(const mns_plan *plan, const mns_field *field, mns_error *error);
+/* Whether so many balls, and lengths such as these, can be drawn in floats. Errors: UNSUPPORTED. */
 mns_status plan_check_limits(const mns_plan *plan, const mns_field *field, mns_error *error);
 
 /* How a tree is built for a driver. Errors: USAGE. */
@@ -138,7 +148,7 @@ mns_status plan_tree_options(const mns_options *options, const mns_limits *limit
 mns_status plan_trees(mns_plan *plan, const mns_field *field, bool host, mns_error *error);
 
 /* Features, passes and what is left out of a frame that the reference traces. Errors: UNSUPPORTED. */
-mns_status plan_reference(mns_plan *plan, const mns_field *field, bool host, mns_error *error);
+mns_status plan_reference(mns_plan *plan, bool host, mns_error *error);
 
 /* Writes plan->text. False: out of memory. */
 bool plan_explain(mns_plan *plan, const mns_field *field);

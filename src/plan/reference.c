@@ -2,11 +2,9 @@
 #include "base/status.h"
 #include "plan/plan.h"
 
-#include <float.h>
-
 static const char traced[] = "the reference is traced on the CPU";
 
-mns_status plan_reference(mns_plan *plan, const mns_field *field, bool host, mns_error *error)
+mns_status plan_reference(mns_plan *plan, bool host, mns_error *error)
 {
     static const char *const parts[] = {
         "sort",
@@ -27,10 +25,6 @@ mns_status plan_reference(mns_plan *plan, const mns_field *field, bool host, mns
     if (host)
         return status_fail(error, MNS_ERROR_UNSUPPORTED,
                            "the reference draws on no host's framebuffer; take the method list");
-    if (field->p.count && !(plan->facts.farthest <= FLT_MAX))
-        return status_fail(error, MNS_ERROR_UNSUPPORTED,
-                           "distances to %g: the planes' floats hold at most %g; rescale the input",
-                           plan->facts.farthest, (double)FLT_MAX);
     plan->features |= FEATURE_REFERENCE;
     vec3_store(plan->origin, plan->frame.eye);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) plan_leave_out(plan, parts[i], traced);

@@ -2,6 +2,10 @@
 
 #include <math.h>
 
+/* Of the sizes of eye, base and centre. Every number met on the way to h and m is at most 4 times their sum,
+ * and takes part in fewer than 20 operations of relative error 2^-102 or less. */
+#define BLUR 0x1p-95
+
 /* Where the ray enters the box of the effective spheres, roughly; 0 where it starts inside or never does.
  * Only the choice of an origin hangs on it. */
 static double box_distance(const mns_field *f, const double origin[3], const real2 direction[3])
@@ -41,19 +45,18 @@ void reference_ray_start(reference_ray *ray, const mns_field *field, const doubl
         real2 way = real2_multiply((real2){ray->base, 0}, ray->direction[a]);
         ray->origin[a] = real2_add(way, (real2){origin[a], 0});
         ray->eye[a] = origin[a];
-        size += fabs(origin[a]) + fmax(fabs(field->effective_lo[a]), fabs(field->effective_hi[a]));
+        size += fabs(origin[a]);
     }
-    /* Every number met on the way to h and m is at most 4 size, and takes part in fewer than 20 operations of
-     * relative error 2^-102 or less. */
-    ray->blur = size * 0x1p-95;
+    ray->blur = size * BLUR;
 }
 
 bool reference_chord_make(reference_chord *chord, const reference_ray *ray, const mns_field *field,
                           size_t ball)
 {
     real2 centre[3], m = {0, 0};
-    double away = 0, r = field_radius(field, ball);
+    double away = 0, r = field_radius(field, ball), blur = ray->blur;
     for (int a = 0; a < 3; a++) {
+        blur += fabs(field->p.axis[a][ball]) * BLUR;
         centre[a] = real2_add((real2){field->p.axis[a][ball], 0}, real2_negate(ray->origin[a]));
         m = real2_add(m, real2_multiply(centre[a], ray->direction[a]));
     }
@@ -69,9 +72,9 @@ bool reference_chord_make(reference_chord *chord, const reference_ray *ray, cons
      * value. With w = peak - y^2, y good to 4, y^2 to 9 and at most 1 inside the ball, and 1 - u there and
      * back in the kernel, 26 roundings of 1 hold it all. The blur moves m and h by as much as itself. */
     chord->peak = (r - away) * chord->inverse * ((r + away) * chord->inverse);
-    chord->blur = 26 * ROUND + 6 * ray->blur * chord->inverse;
+    chord->blur = 26 * ROUND + 6 * blur * chord->inverse;
     if (chord->peak + chord->blur <= 0) return false;
-    double half = r * sqrt(chord->peak + chord->blur) * (1 + 8 * ROUND) + 2 * ray->blur;
+    double half = r * sqrt(chord->peak + chord->blur) * (1 + 8 * ROUND) + 2 * blur;
     double slack = 4 * ROUND * (fabs(m.hi) + half);
     chord->middle = m.hi;
     chord->middle_low = m.lo;

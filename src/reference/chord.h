@@ -18,7 +18,7 @@ typedef struct reference_ray {
     real2 origin[3], direction[3]; /* unit */
     double eye[3];                 /* as given */
     double base;                   /* distance from the eye to origin: t = base + s */
-    double blur;                   /* bound on the error of a point of it, in scene units */
+    double blur;                   /* bound on the error of a point of it */
 } reference_ray;
 
 typedef struct reference_chord {

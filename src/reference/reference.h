@@ -9,6 +9,7 @@ struct mns_reference {
     reference_tree tree;
 };
 
+/* Lengths here are in the field's own unit. */
 typedef struct reference_query {
     double origin[3], direction[3]; /* known to be good */
     double side;  /* 0; or of a ray that starts on the surface, as near as rounding allows, the side it leaves
@@ -25,8 +26,8 @@ typedef struct reference_answer {
 /* False: out of memory. */
 bool reference_ask(const mns_reference *reference, reference_scratch *scratch, const reference_query *query,
                    reference_answer *answer);
-/* mns_reference_trace for a ray known to be good; a hit's chords stay in the scratch, and s is where on them
- * it lies. False: out of memory. */
+/* mns_reference_trace for a ray known to be good, in the field's own unit; a hit's chords stay in the
+ * scratch, and s is where on them it lies. False: out of memory. */
 bool reference_trace(const mns_reference *reference, reference_scratch *scratch, const double origin[3],
                      const double direction[3], mns_hit *hit, double *s);
 /* q k of a chord's ball at s. */

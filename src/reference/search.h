@@ -9,6 +9,7 @@ typedef struct reference_scratch {
     reference_list ball; /* met by the ray */
     reference_chord *chord;
     size_t chord_count, chord_capacity;
+    double vague; /* from here on there are balls that rounding hides, which have no chord; or INFINITY */
     reference_list active; /* a stack of lists of chords, one for each piece being looked at */
 } reference_scratch;
 

@@ -4,11 +4,19 @@
 #include "base/status.h"
 #include "reference/bound.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
+/* Of a ball's w. Where rounding hides more, halving pieces of the ray tells nothing of the ball, and the ray
+ * is undecided from there on. */
+#define BLUR_MOST 0.25
+
 /* Squares and their errors stay within double's range up to here. */
 #define FARTHEST 1e60
+
+/* What lengths given back in scene units can lose by being too small for doubles. */
+#define SUBNORMAL 0x1p-1074
 
 mns_status mns_reference_create(const mns_field *field, mns_reference **reference, mns_error *error)
 {
@@ -59,6 +67,7 @@ static bool collect(const mns_reference *reference, reference_scratch *scratch, 
     if (!reference_tree_collect(&reference->tree, origin, direction, pad, reach, &scratch->ball))
         return false;
     scratch->chord_count = 0;
+    scratch->vague = INFINITY;
     if (scratch->ball.count > scratch->chord_capacity) {
         size_t capacity = scratch->ball.capacity;
         reference_chord *chord = memory_resize(scratch->chord, capacity, sizeof *chord);
@@ -66,10 +75,14 @@ static bool collect(const mns_reference *reference, reference_scratch *scratch, 
         scratch->chord = chord;
         scratch->chord_capacity = capacity;
     }
-    for (size_t i = 0; i < scratch->ball.count; i++)
-        if (reference_chord_make(&scratch->chord[scratch->chord_count], ray, reference->field,
-                                 scratch->ball.item[i]))
+    for (size_t i = 0; i < scratch->ball.count; i++) {
+        reference_chord *chord = &scratch->chord[scratch->chord_count];
+        if (!reference_chord_make(chord, ray, reference->field, scratch->ball.item[i])) continue;
+        if (chord->blur <= BLUR_MOST)
             scratch->chord_count++;
+        else
+            scratch->vague = fmin(scratch->vague, chord->enter);
+    }
     return true;
 }
 
@@ -113,7 +126,9 @@ bool reference_ask(const mns_reference *reference, reference_scratch *scratch, c
     reference_ray_start(&ray, field, query->origin, query->direction);
     if (!collect(reference, scratch, &ray, query->reach - ray.base)) return false;
     if (!reference_search(scratch, field, &ray, query->side, query->reach, &found)) return false;
-    *answer = (reference_answer){.hit = {.hit = found.found, .certain = found.certain, .t = INFINITY}};
+    double seen = found.found ? found.hi : fmin(query->reach - ray.base, DBL_MAX);
+    bool certain = found.certain && seen < scratch->vague;
+    *answer = (reference_answer){.hit = {.hit = found.found, .certain = certain, .t = INFINITY}};
     if (!found.found) return true;
     real2 t = real2_sum(ray.base, found.at);
     mns_hit *hit = &answer->hit;
@@ -144,26 +159,32 @@ bool reference_trace(const mns_reference *reference, reference_scratch *scratch,
 mns_status mns_reference_trace(const mns_reference *reference, const double origin[3],
                                const double direction[3], mns_hit *hit, mns_error *error)
 {
-    double s;
+    double s, from[3];
     bool near = true, finite = true, zero = true;
     if (!reference || !origin || !direction || !hit)
         return status_fail(error, MNS_ERROR_USAGE, "reference: an argument is NULL");
+    const double unit = field_unit(reference->field);
     for (int a = 0; a < 3; a++) {
-        near = near && fabs(origin[a]) <= FARTHEST;
+        from[a] = origin[a] / unit;
+        near = near && fabs(from[a]) <= FARTHEST;
         finite = finite && isfinite(direction[a]);
         zero = zero && direction[a] == 0;
     }
     if (!near)
         return status_fail(error, MNS_ERROR_USAGE,
                            "a ray's origin %g,%g,%g: expected three numbers within %g", origin[0], origin[1],
-                           origin[2], FARTHEST);
+                           origin[2], FARTHEST * unit);
     if (!finite || zero)
         return status_fail(error, MNS_ERROR_USAGE,
                            "a ray's direction %g,%g,%g: expected three finite numbers, not all 0",
                            direction[0], direction[1], direction[2]);
     reference_scratch scratch = {0};
-    bool done = reference_trace(reference, &scratch, origin, direction, hit, &s);
+    bool done = reference_trace(reference, &scratch, from, direction, hit, &s);
     reference_scratch_free(&scratch);
+    if (done && unit != 1) {
+        hit->t *= unit;
+        hit->t_error = hit->hit ? hit->t_error * unit + SUBNORMAL : 0;
+    }
     return done ? MNS_OK : status_no_memory(error, "tracing a ray");
 }
 
@@ -202,9 +223,11 @@ static void add_ball(void *user, size_t ball)
 double mns_reference_value(const mns_reference *reference, const double point[3], double gradient[3],
                            size_t *ball)
 {
-    point_sum sum = {.field = reference->field, .point = point, .strongest = -1, .ball = SIZE_MAX};
-    reference_tree_around(&reference->tree, point, add_ball, &sum);
-    for (int a = 0; gradient && a < 3; a++) gradient[a] = sum.gradient[a];
+    const double unit = field_unit(reference->field);
+    const double at[3] = {point[0] / unit, point[1] / unit, point[2] / unit};
+    point_sum sum = {.field = reference->field, .point = at, .strongest = -1, .ball = SIZE_MAX};
+    reference_tree_around(&reference->tree, at, add_ball, &sum);
+    for (int a = 0; gradient && a < 3; a++) gradient[a] = sum.gradient[a] / unit;
     if (ball) *ball = sum.ball;
     return sum.value.hi + sum.value.lo;
 }

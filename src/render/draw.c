@@ -234,6 +234,7 @@ static mns_status draw_all(draw *d, mns_error *error)
                   d->frame->t);
     if (!status && d->plan->options.measure && !traced) status = draw_hits_count(d, error);
     if (!status && d->plan->features & FEATURE_COUNTERS) status = draw_work_count(d, error);
+    if (!status) status = frame_leave_unit(d->frame, d->plan, error);
     list_lengths_finish(&d->lengths, d->stats);
     d->stats->programs = r->programs.count;
     d->stats->programs_kept = r->programs.binaries.taken;
@@ -254,7 +255,14 @@ static mns_status draw_frame(mns_renderer *r, const mns_field *field, const mns_
     if (status) return status;
     mns_plan_destroy(frame->plan);
     frame->plan = plan;
-    draw d = {.r = r, .field = field, .plan = plan, .target = target, .frame = frame, .stats = &frame->stats};
+    mns_target own = target ? *target : (mns_target){0}; /* its clip planes in the field's unit */
+    own.near /= plan->unit, own.far /= plan->unit;
+    draw d = {.r = r,
+              .field = field,
+              .plan = plan,
+              .target = target ? &own : NULL,
+              .frame = frame,
+              .stats = &frame->stats};
     gl_state state;
     draw_stats_start(&d);
     gl_state_take(&r->device, &state);

@@ -25,6 +25,7 @@ void draw_stats_start(draw *d)
     stats->height = plan->frame.height;
     stats->timed = plan->options.measure;
     stats->balls = d->field->p.count;
+    stats->t_unit = plan->t_unit;
     stats->color_by = plan->color_by;
     stats->color_map = "";
     stats->passes = plan->pass_count;

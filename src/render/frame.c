@@ -142,6 +142,7 @@ static mns_image *image_make(const mns_frame *f)
     *image = (mns_image){
         .width = f->width,
         .height = f->height,
+        .t_unit = f->plan->t_unit,
         .rgba = plane_or_none(true, pixels, 4, &failed),
         .t = plane_or_none(true, pixels, 1, &failed),
         .t_lo = plane_or_none(true, pixels, 1, &failed),

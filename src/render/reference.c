@@ -200,35 +200,16 @@ void draw_reference_end(draw *d)
     d->tracer = (draw_tracer){0};
 }
 
-/* The planes to their textures, whatever rows the host's own textures come in. */
 static void upload(draw *d)
 {
-    enum { UNPACK = 5 };
-    static const GLenum name[UNPACK] = {GL_UNPACK_ALIGNMENT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS,
-                                        GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SWAP_BYTES};
-    static const GLint plain[UNPACK] = {4, 0, 0, 0, 0};
-    const GladGLContext *gl = &d->r->device.gl;
-    const struct {
-        GLuint texture;
-        GLenum format;
-        const float *data;
-    } planes[] = {
-        {d->frame->t, GL_RG, d->tracer.t},           {d->frame->normal, GL_RGBA, d->tracer.normal},
-        {d->frame->color, GL_RGBA, d->tracer.color}, {d->frame->lit, GL_RGBA, d->tracer.lit},
-        {d->frame->terms, GL_RGBA, d->tracer.terms}, {d->frame->settled, GL_RED, d->tracer.settled}};
-    GLint before[UNPACK];
-    for (int i = 0; i < UNPACK; i++) {
-        gl->GetIntegerv(name[i], &before[i]);
-        gl->PixelStorei(name[i], plain[i]);
-    }
-    for (size_t i = 0; i < sizeof planes / sizeof *planes; i++) {
-        if (!planes[i].data) continue;
-        gl->BindTexture(GL_TEXTURE_2D, planes[i].texture);
-        gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, d->frame->width, d->frame->height, planes[i].format,
-                          GL_FLOAT, planes[i].data);
-    }
-    gl->BindTexture(GL_TEXTURE_2D, 0);
-    for (int i = 0; i < UNPACK; i++) gl->PixelStorei(name[i], before[i]);
+    const draw_tracer *tracer = &d->tracer;
+    frame_send(d->frame, d->frame->t, GL_RG, tracer->t);
+    frame_send(d->frame, d->frame->normal, GL_RGBA, tracer->normal);
+    if (tracer->color) frame_send(d->frame, d->frame->color, GL_RGBA, tracer->color);
+    if (!tracer->lit) return;
+    frame_send(d->frame, d->frame->lit, GL_RGBA, tracer->lit);
+    frame_send(d->frame, d->frame->terms, GL_RGBA, tracer->terms);
+    frame_send(d->frame, d->frame->settled, GL_RED, tracer->settled);
 }
 
 mns_status draw_reference_sample(draw *d, const double jitter[2], mns_error *error)

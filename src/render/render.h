@@ -66,5 +66,10 @@ struct mns_frame {
 
 /* Makes the frame's textures for a plan. Errors: MEMORY, GL. */
 mns_status frame_prepare(mns_frame *frame, const mns_plan *plan, mns_error *error);
+/* Floats into a texture of the frame's size, rows from the bottom, whatever rows the host's
+ * own textures come in. */
+void frame_send(mns_frame *frame, GLuint texture, GLenum format, const float *data);
+/* The planes' distances from the field's unit to the one in which they are told. Errors: MEMORY. */
+mns_status frame_leave_unit(mns_frame *frame, const mns_plan *plan, mns_error *error);
 
 #endif

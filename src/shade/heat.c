@@ -56,6 +56,7 @@ mns_status mns_image_heat(const mns_image *image, mns_work count, mns_color_map 
     memcpy(made->t, image->t, pixels * sizeof *made->t);
     memset(made->t_lo, 0, pixels * sizeof *made->t_lo);
     memset(made->normal, 0, 3 * pixels * sizeof *made->normal);
+    made->t_unit = image->t_unit;
     memcpy(made->certain, image->certain, pixels * sizeof *made->certain);
     for (size_t i = 0; i < pixels; i++)
         paint((double)image->work[i * MNS_WORK_COUNT + (size_t)count] / top, map, made->rgba + 4 * i);
