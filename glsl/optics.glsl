@@ -23,3 +23,9 @@ DENSITY_FN REAL optics_bend(REAL ratio, REAL cosine)
 {
     return cosine - sqrt(optics_beyond(ratio, cosine));
 }
+
+// A ray whose share of the pixel is below this, in every channel, is not worth its cost: it sees the environment.
+DENSITY_FN REAL optics_least_share(void)
+{
+    return NUM(0.0009765625);
+}

@@ -9,9 +9,6 @@
 
 #include <string.h>
 
-/* A ray whose share of the pixel is below this is not worth its cost: it sees the environment. */
-#define SHARE_LEAST (1.0 / 1024)
-
 mns_status effects_begin(effects_scene *scene, const mns_plan *plan, const mns_reference *reference,
                          effects_albedo *albedo, const void *user, mns_error *error)
 {
@@ -72,7 +69,8 @@ static double ray_color(effects_walk *walk, const effects_surface *from, vec3 wa
 {
     reference_answer answer = {.hit = {.t = INFINITY}};
     effects_surface surface;
-    if (traced && largest(left->share) >= SHARE_LEAST && !effects_ask(walk, from, way, INFINITY, &answer))
+    if (traced && largest(left->share) >= optics_least_share() &&
+        !effects_ask(walk, from, way, INFINITY, &answer))
         return INFINITY;
     if (!answer.hit.hit) {
         environment_color(&walk->scene->environment, way, color);
