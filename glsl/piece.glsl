@@ -4,7 +4,13 @@
 // differences; the kernel, a polynomial in w, has coefficients that are sums of products of those. With positive strengths the
 // sum over the balls cancels nothing.
 
-// Adds q k of one chord to the coefficients; returns the most that w reaches.
+// Adds q k of one chord to the coefficients, those between the ends times piece_parts; returns the most that w reaches.
+//
+// With c0, c1, c2 of w and p = c0 c2 the products of Bernstein polynomials come to
+//   w^2    c0^2, c0 c1, (p + 2 c1^2) / 3, c1 c2, c2^2
+//   w^3    c0^3, c0^2 c1, c0 (p + 4 c1^2) / 5, c1 (3 p + 2 c1^2) / 5, c2 (p + 4 c1^2) / 5, c1 c2^2, c2^3
+//   w^4    with e of w^2 times 1, 1, 3, 1, 1: e0^2, e0 e1, (e0 e2 + 4 e1^2) / 7, (e0 e3 + 2 e1 e2) / 7,
+//          (e0 e4 + 16 e1 e3 + 2 e2^2) / 35, (e1 e4 + 2 e2 e3) / 7, (e2 e4 + 4 e3^2) / 7, e3 e4, e4^2
 REAL piece_add(inout REAL b[DEGREE + 1], Chord chord, REAL q, REAL s, REAL stop)
 {
     precise REAL head_a = s - chord.a;
@@ -14,10 +20,23 @@ REAL piece_add(inout REAL b[DEGREE + 1], Chord chord, REAL q, REAL s, REAL stop)
     REAL c0 = head_a * head_b * chord.shrink;
     REAL c1 = NUM(0.5) * (head_a * tail_b + tail_a * head_b) * chord.shrink;
     REAL c2 = tail_a * tail_b * chord.shrink;
-    // The square of w, degree 4.
+    REAL p = c0 * c2;
+    REAL m = c1 * c1;
+#if KERNEL == DENSITY_POLY3
+    REAL outer = q * (p + NUM(4.0) * m);
+    REAL e0 = q * c0 * c0;
+    REAL e2 = q * c2 * c2;
+    b[0] += e0 * c0;
+    b[1] += e0 * c1;
+    b[2] += outer * c0;
+    b[3] += q * c1 * (NUM(3.0) * p + NUM(2.0) * m);
+    b[4] += outer * c2;
+    b[5] += e2 * c1;
+    b[6] += e2 * c2;
+#else
     REAL e0 = c0 * c0;
     REAL e1 = c0 * c1;
-    REAL e2 = (c0 * c2 + NUM(2.0) * c1 * c1) / NUM(3.0);
+    REAL e2 = p + NUM(2.0) * m;
     REAL e3 = c1 * c2;
     REAL e4 = c2 * c2;
 #if KERNEL == DENSITY_POLY2
@@ -29,36 +48,46 @@ REAL piece_add(inout REAL b[DEGREE + 1], Chord chord, REAL q, REAL s, REAL stop)
 #elif KERNEL == DENSITY_POLY4
     b[0] += q * e0 * e0;
     b[1] += q * e0 * e1;
-    b[2] += q * (NUM(3.0) * e0 * e2 + NUM(4.0) * e1 * e1) / NUM(7.0);
-    b[3] += q * (e0 * e3 + NUM(6.0) * e1 * e2) / NUM(7.0);
-    b[4] += q * (e0 * e4 + NUM(16.0) * e1 * e3 + NUM(18.0) * e2 * e2) / NUM(35.0);
-    b[5] += q * (e1 * e4 + NUM(6.0) * e2 * e3) / NUM(7.0);
-    b[6] += q * (NUM(3.0) * e2 * e4 + NUM(4.0) * e3 * e3) / NUM(7.0);
+    b[2] += q * (e0 * e2 + NUM(4.0) * e1 * e1);
+    b[3] += q * (e0 * e3 + NUM(2.0) * e1 * e2);
+    b[4] += q * (e0 * e4 + NUM(16.0) * e1 * e3 + NUM(2.0) * e2 * e2);
+    b[5] += q * (e1 * e4 + NUM(2.0) * e2 * e3);
+    b[6] += q * (e2 * e4 + NUM(4.0) * e3 * e3);
     b[7] += q * e3 * e4;
     b[8] += q * e4 * e4;
 #else
-    // Times a third factor of degree 2: w itself, or (5 + 4w) / 9.
-#if KERNEL == DENSITY_WYVILL
-    REAL f0 = q * (NUM(5.0) + NUM(4.0) * c0) / NUM(9.0);
-    REAL f1 = q * (NUM(5.0) + NUM(4.0) * c1) / NUM(9.0);
-    REAL f2 = q * (NUM(5.0) + NUM(4.0) * c2) / NUM(9.0);
-#else
-    REAL f0 = q * c0;
-    REAL f1 = q * c1;
-    REAL f2 = q * c2;
-#endif
+    // Times (5 + 4w) / 9.
+    REAL f0 = q * (NUM(5.0) + NUM(4.0) * c0);
+    REAL f1 = q * (NUM(5.0) + NUM(4.0) * c1);
+    REAL f2 = q * (NUM(5.0) + NUM(4.0) * c2);
     b[0] += e0 * f0;
-    b[1] += (NUM(2.0) * e1 * f0 + e0 * f1) / NUM(3.0);
-    b[2] += (NUM(6.0) * e2 * f0 + NUM(8.0) * e1 * f1 + e0 * f2) / NUM(15.0);
-    b[3] += (e3 * f0 + NUM(3.0) * e2 * f1 + e1 * f2) / NUM(5.0);
-    b[4] += (e4 * f0 + NUM(8.0) * e3 * f1 + NUM(6.0) * e2 * f2) / NUM(15.0);
-    b[5] += (e4 * f1 + NUM(2.0) * e3 * f2) / NUM(3.0);
+    b[1] += NUM(2.0) * e1 * f0 + e0 * f1;
+    b[2] += NUM(2.0) * e2 * f0 + NUM(8.0) * e1 * f1 + e0 * f2;
+    b[3] += e3 * f0 + e2 * f1 + e1 * f2;
+    b[4] += e4 * f0 + NUM(8.0) * e3 * f1 + NUM(2.0) * e2 * f2;
+    b[5] += e4 * f1 + NUM(2.0) * e3 * f2;
     b[6] += e4 * f2;
+#endif
 #endif
     return max(c0, max(c1, c2));
 }
 
-REAL piece_b[DEGREE + 1];  // the field on the piece; from piece_may on less L, turned so that the ray comes from below zero
+// What piece_add leaves to be done once a piece.
+void piece_parts(inout REAL b[DEGREE + 1])
+{
+#if KERNEL == DENSITY_POLY2
+    b[2] *= NUM(1.0) / NUM(3.0);
+#elif KERNEL == DENSITY_POLY3
+    for (int i = 2; i < 5; i++) b[i] *= NUM(1.0) / NUM(5.0);
+#elif KERNEL == DENSITY_POLY4
+    for (int i = 2; i < 7; i++) b[i] *= NUM(1.0) / (i == 4 ? NUM(35.0) : NUM(7.0));
+#else
+    const REAL over[DEGREE + 1] = REAL[](NUM(9.0), NUM(27.0), NUM(135.0), NUM(45.0), NUM(135.0), NUM(27.0), NUM(9.0));
+    for (int i = 0; i <= DEGREE; i++) b[i] *= NUM(1.0) / over[i];
+#endif
+}
+
+REAL piece_b[DEGREE + 1];  // the field on the piece, as piece_add makes it; from piece_may on less L, turned so that the ray comes from below zero
 REAL piece_margin;         // the rounding that each coefficient may carry
 
 void piece_begin()
@@ -78,6 +107,7 @@ void piece_take(Chord chord, REAL s, REAL stop)
 bool piece_may(REAL s, REAL stop, REAL side)
 {
     piece_margin *= TAU;
+    piece_parts(piece_b);
 #if defined(EYE_INSIDE) || defined(EYE_ON)
     for (int i = 0; i <= DEGREE; i++) piece_b[i] = (level.x - piece_b[i]) * side;
 #else
