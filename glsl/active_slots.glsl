@@ -14,6 +14,14 @@ float slot_shrink[SLOTS];
 float slot_q[SLOTS];
 #endif
 uint slot_ball[SLOTS];
+// The first slots are visited by their numbers, which costs a wide machine one load each; a slot whose number is not known before costs
+// it a load a lane. They always hold a chord, at first one that has ended.
+#if SLOTS < 8
+#define SLOTS_FIRST SLOTS
+#else
+#define SLOTS_FIRST 8
+#endif
+
 int slot_count;      // slots in use; those whose ball has ended are free
 int slot_free;       // one of the free, or slot_count
 bool slot_overflow;
@@ -64,7 +72,7 @@ float slot_next(Chord chord, float stop)
     return next > stop ? next : FAR_AWAY;
 }
 
-// Before the first piece. The first slot is written so that no compiler has to suspect the arrays of being read unwritten.
+// Before the first piece. A slot is written so that no compiler has to suspect the arrays of being read unwritten.
 void slots_clear()
 {
     slot_count = 0;
@@ -74,14 +82,16 @@ void slots_clear()
     stream_disorder = false;
     stream_ball = 0u;
     stream_next = NO_NODE;
-    slot_a[0] = 0.0;
-    slot_b[0] = 0.0;
+    for (int j = 0; j < SLOTS_FIRST; j++) {
+        slot_a[j] = 0.0;
+        slot_b[j] = 0.0;
 #ifdef RADII
-    slot_shrink[0] = 0.0;
+        slot_shrink[j] = 0.0;
 #endif
 #ifdef STRENGTHS
-    slot_q[0] = 0.0;
+        slot_q[j] = 0.0;
 #endif
+    }
     slot_ball[0] = 0u;
 }
 

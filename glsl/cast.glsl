@@ -45,22 +45,34 @@ layout(location = 1) out vec4 out_normal;
 layout(location = 2) out vec4 out_color;
 #endif
 
+// Takes slot j into the piece [s, stop], if its ball is active there.
+void slot_add(int j, float s, float stop, inout float next, inout bool some)
+{
+    Chord chord = active_chord(j);
+    bool here = chord.a <= s && chord.b > s;
+    next = min(next, slot_next(chord, stop));
+    slot_free = chord.b <= s ? min(slot_free, j) : slot_free;
+    some = some || here;
+#if SOLVER == SOLVER_EXACT
+    chord.shrink = here ? chord.shrink : 0.0; // adds zeros: cheaper than to branch
+    piece_take(chord, s, stop);
+#else
+    if (here) piece_take(chord, s, stop);
+#endif
+}
+
 // Sums the piece [s, stop] over the slots. Returns the next separator after it, as far as the slots know.
 float slot_sum(float s, float stop, out bool some)
 {
     float next = FAR_AWAY;
     some = false;
     active_from = s;
+    slot_free = slot_count;
     piece_begin();
-    for (int j = 0; j < slot_count; j++) {
-        Chord chord = active_chord(j);
-        next = min(next, slot_next(chord, stop));
-        if (chord.b <= s) slot_free = j;
-        if (chord.a <= s && chord.b > s) {
-            piece_take(chord, s, stop);
-            some = true;
-        }
-    }
+    for (int j = 0; j < SLOTS_FIRST / 2; j++) slot_add(j, s, stop, next, some);
+    if (slot_count > SLOTS_FIRST / 2)
+        for (int j = SLOTS_FIRST / 2; j < SLOTS_FIRST; j++) slot_add(j, s, stop, next, some);
+    for (int j = SLOTS_FIRST; j < slot_count; j++) slot_add(j, s, stop, next, some);
     return next;
 }
 
