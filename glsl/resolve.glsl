@@ -70,7 +70,8 @@ void main()
     list_ray = links_ray;
 #endif
     links_first = entry.y >> 2u;
-    if (links_first == NO_NODE) links_first = list_head(at);
+    uint head = list_head(at);
+    if (links_first == NO_NODE) links_first = head;
     links_past = links_first;
     REAL limit = FAR_AWAY;
 #ifdef HOST_DEPTH

@@ -156,7 +156,7 @@ static void nothing_of_the_gathering_is_made(void **state)
                     (d->stats.fallbacks.undecided_float > 0);
     assert_int_equal(d->stats.programs, 2 + late); /* cast, shade */
     assert_int_equal(d->stats.passes, 6);
-    assert_true(p->entries.id && p->tile_heads.id && p->balls.id);
+    assert_true(p->tile_heads.id && p->balls.id);
     mns_field *strong = cloud_field(&gains, MNS_KERNEL_POLY3);
     mns_image_destroy(draw_image(d, strong, &view, NULL, &tile));
     assert_true(mns_plan_features(mns_frame_plan(d->frame)) & FEATURE_CORE_RADII);

@@ -66,7 +66,7 @@ static void a_tree_makes_nothing_of_the_lists(void **state)
     mns_field *field = draw_generated("scattered:50", MNS_KERNEL_POLY3);
     mns_stats stats = draw_by(d, field, &(mns_options){.method = MNS_METHOD_FBVH});
     const list_passes *p = &d->renderer->passes;
-    assert_true(!p->balls.id && !p->nodes.id && !p->counter.id && !p->entries.id && !p->heads &&
+    assert_true(!p->balls.id && !p->nodes.id && !p->counter.id && !p->tile_heads.id && !p->heads &&
                 !p->core_depth);
     assert_int_equal(stats.passes, 5);
     assert_int_equal(stats.list_nodes, 0);

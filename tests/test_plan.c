@@ -422,7 +422,7 @@ static void the_text_names_the_method_tile(void **state)
     mns_plan *plan = scene_plan(&s, field);
     assert_non_null(strstr(mns_plan_text(plan), "method tile"));
     assert_non_null(strstr(mns_plan_text(plan), ": core specular tiles\n"));
-    assert_true(plan->pool_most == (1u << 24) / TILE_ENTRY);
+    assert_true(plan->pool_most == (1u << 24) / (4 * sizeof(float)));
     mns_plan_destroy(plan);
     mns_field_destroy(field);
 }

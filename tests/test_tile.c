@@ -104,18 +104,7 @@ typedef struct setting {
     list_order order;
     tile_bins bins;
     size_t tiles;
-    uint32_t *entry, *head;
 } setting;
-
-static void write_lists(setting *s)
-{
-    s->tiles = (size_t)s->bins.across * (size_t)s->bins.down;
-    free(s->entry), free(s->head);
-    s->entry = calloc(s->bins.count + 1, sizeof *s->entry);
-    s->head = calloc(s->tiles, sizeof *s->head);
-    assert_true(s->entry && s->head);
-    tile_bins_write(&s->bins, s->entry, s->head);
-}
 
 static void make_lists(setting *s)
 {
@@ -125,7 +114,7 @@ static void make_lists(setting *s)
         tile_bins_make(&s->bins, &s->order, s->field, s->plan, s->region, &error))
         fail_msg("%s: %s", s->name, error.text);
     assert_true(s->bins.fits);
-    write_lists(s);
+    s->tiles = (size_t)s->bins.across * (size_t)s->bins.down;
 }
 
 static void begin(setting *s, const char *name, mns_field *field, const mns_view *view,
@@ -153,33 +142,34 @@ static void end(setting *s)
 {
     list_order_free(&s->order);
     tile_bins_free(&s->bins);
-    free(s->entry), free(s->head);
     mns_plan_destroy(s->plan);
     mns_field_destroy(s->field);
 }
 
 /* ---- The lists' form ---- */
 
-/* Every list ascends, so that none holds a ball twice, and ends once; all entries belong to one list. */
+/* Every list ascends, so that none holds a ball twice; the lists stand one behind the other, from entry 1 on.
+ */
 static void expect_form(const setting *s)
 {
-    size_t seen = 0;
-    assert_true(s->entry[0] & TILE_LAST);
+    size_t next = 1;
     for (size_t tile = 0; tile < s->tiles; tile++) {
-        size_t at = s->head[tile], length = 0;
-        for (bool more = at != 0; more; at++) {
-            assert_true(at <= s->bins.count);
-            uint32_t place = s->entry[at] & ~TILE_LAST;
-            assert_true(place < s->order.count);
-            if (length && place <= (s->entry[at - 1] & ~TILE_LAST))
-                fail_msg("%s: tile %zu: place %u after %u", s->name, tile, place, s->entry[at - 1]);
-            more = !(s->entry[at] & TILE_LAST);
-            length++;
+        tile_head head = s->bins.head[tile];
+        assert_int_equal(head.past - head.first, s->bins.length[tile]);
+        if (head.first == head.past) {
+            assert_int_equal(head.first, 0);
+            continue;
         }
-        assert_int_equal(length, s->bins.length[tile]);
-        seen += length;
+        assert_int_equal(head.first, next);
+        for (size_t at = head.first; at < head.past; at++) {
+            uint32_t place = s->bins.place[at];
+            assert_true(place < s->order.count);
+            if (at > head.first && place <= s->bins.place[at - 1])
+                fail_msg("%s: tile %zu: place %u after %u", s->name, tile, place, s->bins.place[at - 1]);
+        }
+        next = head.past;
     }
-    assert_int_equal(seen, s->bins.count);
+    assert_int_equal(next, s->bins.count + 1);
 }
 
 /* ---- What the lists must hold ---- */
@@ -263,8 +253,8 @@ static size_t expect_lists(const setting *s)
     for (size_t tile = 0; tile < s->tiles; tile++) {
         uint8_t *mine = needed + tile * balls;
         for (size_t i = 0; i < balls; i++) sum += mine[i];
-        for (size_t at = s->head[tile]; at; at = s->entry[at] & TILE_LAST ? 0 : at + 1)
-            mine[list_ball_at(&s->order, s->entry[at] & ~TILE_LAST)->index] = 0;
+        for (size_t at = s->bins.head[tile].first; at < s->bins.head[tile].past; at++)
+            mine[list_ball_at(&s->order, s->bins.place[at])->index] = 0;
         for (size_t i = 0; i < balls; i++)
             if (mine[i])
                 fail_msg("%s: tile %zu of %d across, %d pixels wide: ball %zu is missing", s->name, tile,
@@ -302,7 +292,7 @@ static void empty_scenes_have_empty_lists(void **state)
         begin_case(&s, &cases[i]);
         make_lists(&s);
         assert_int_equal(s.bins.count, 0);
-        for (size_t tile = 0; tile < s.tiles; tile++) assert_int_equal(s.head[tile], 0);
+        for (size_t tile = 0; tile < s.tiles; tile++) assert_int_equal(s.bins.head[tile].past, 0);
         end(&s);
     }
 }
@@ -328,8 +318,8 @@ static void any_number_of_threads_makes_the_same_lists(void **state)
             omp_set_num_threads(threads[k]);
             make_lists(&many);
             assert_int_equal(one.bins.count, many.bins.count);
-            assert_memory_equal(one.entry, many.entry, (one.bins.count + 1) * sizeof *one.entry);
-            assert_memory_equal(one.head, many.head, one.tiles * sizeof *one.head);
+            assert_memory_equal(one.bins.place, many.bins.place, (one.bins.count + 1) * sizeof(uint32_t));
+            assert_memory_equal(one.bins.head, many.bins.head, one.tiles * sizeof(tile_head));
         }
         end(&one);
         end(&many);

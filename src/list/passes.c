@@ -245,11 +245,8 @@ static void bind_tiles(list_passes *p, gl_device *device, const mns_plan *plan, 
     const GladGLContext *gl = &device->gl;
     gl->UseProgram(program);
     gl->Uniform4iv(UNIFORM_TILE_GRID, 1, p->tile_grid);
-    if (plan->features & FEATURE_TEXELS) {
-        bind_texels(device, &p->node_texels, GL_TEXTURE3, GL_R32UI, p->entries.id);
-        bind_texels(device, &p->head_texels, GL_TEXTURE4, GL_R32UI, p->tile_heads.id);
-    }
-    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2, p->entries.id);
+    if (plan->features & FEATURE_TEXELS)
+        bind_texels(device, &p->head_texels, GL_TEXTURE4, GL_RG32UI, p->tile_heads.id);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 5, p->tile_heads.id);
 }
 

@@ -18,7 +18,7 @@ typedef struct list_counts {
 /* The GL objects of the list method; zeroed is empty. Textures are of the frame's size. */
 typedef struct list_passes {
     gl_buffer balls, balls_low, cores, colors, nodes, counter, redo, view, view_wide, far_block;
-    gl_buffer entries, tile_heads;                  /* of the tiles' lists */
+    gl_buffer tile_heads;                           /* of the tiles' lists; these hold the balls themselves */
     gl_buffer backwards;                            /* n - 1, ..., 1, 0 */
     GLuint heads, core_depth, host_depth;           /* textures */
     GLuint ball_texels, node_texels, head_texels;   /* buffer textures (TEXELS) */

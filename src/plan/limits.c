@@ -67,7 +67,8 @@ mns_status plan_check_limits(const mns_plan *plan, const mns_field *field, mns_e
                            field->radius_min * plan->unit, plan->facts.farthest * plan->unit,
                            FLOATS_LEAST * plan->unit, FLOATS_MOST * plan->unit);
     size_t most = limits->max_storage_block / (plan->ball_floats * sizeof(float));
-    if (plan->features & FEATURE_QUADS) most /= 2; /* rectangles are kept twice */
+    if (plan->features & FEATURE_QUADS) most /= 2;         /* rectangles are kept twice */
+    if (plan->features & FEATURE_TILES) most = 0x7fffffff; /* what no tile lists is not kept */
     if (field->p.count > most || field->p.count > 0x7fffffff)
         return status_fail(error, MNS_ERROR_UNSUPPORTED,
                            "%zu balls: this driver's storage blocks hold %zu of this field", field->p.count,

@@ -183,7 +183,7 @@ void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[
 /* Whether the plan's frame may run that program. */
 bool plan_needs(const mns_plan *plan, plan_shader shader);
 
-enum { LIST_NODE = 16, TILE_ENTRY = 4 }; /* bytes of a node of the per-pixel lists, of an entry of a tile's */
-enum { RESOLVE_GROUP = 8 };              /* invocations a group of the resolve pass */
+enum { LIST_NODE = 16 };    /* bytes of a node of the per-pixel lists; of a tile's, a ball's record */
+enum { RESOLVE_GROUP = 8 }; /* invocations a group of the resolve pass */
 
 #endif

@@ -35,13 +35,46 @@ static void remember(draw *d)
     memcpy(last->color_range, plan->color_range, sizeof last->color_range);
 }
 
-/* Maps a buffer of `floats` floats a ball and lets `which` fill it. */
-static mns_status upload(draw *d, gl_buffer *buffer, const char *what, size_t floats, int which,
+/* What is sent of each ball. */
+typedef enum ball_part { PART_HIGH, PART_LOW, PART_CORES, PART_COLORS } ball_part;
+
+/* Fills a buffer, `size` bytes a ball. Tiles' lists hold their balls' records themselves; record 0 is no
+ * list's. */
+static void pack(const draw *d, ball_part part, size_t size, char *out)
+{
+    const list_order *order = &d->r->order;
+    bool tiles = d->plan->features & FEATURE_TILES;
+    list_chosen chosen = {NULL, order->count};
+    if (tiles) {
+        chosen = (list_chosen){d->r->bins.place + 1, d->r->bins.count};
+        memset(out, 0, size);
+        out += size;
+    }
+    switch (part) {
+    case PART_HIGH:
+        list_pack_high(order, chosen, d->field, d->plan, (float *)(void *)out);
+        if (!tiles) list_pack_quads(order, d->plan, (float *)(void *)out);
+        break;
+    case PART_LOW:
+        list_pack_low(order, chosen, d->field, d->plan, (float *)(void *)out);
+        break;
+    case PART_CORES:
+        list_pack_cores(order, d->field, (float *)(void *)out);
+        break;
+    case PART_COLORS:
+        list_pack_colors(order, chosen, d->field, d->plan, out);
+        break;
+    }
+}
+
+/* Maps a buffer of `floats` floats a ball and fills it. */
+static mns_status upload(draw *d, gl_buffer *buffer, const char *what, size_t floats, ball_part part,
                          mns_error *error)
 {
     gl_device *device = &d->r->device;
     const list_order *order = &d->r->order;
-    size_t records = order->count + (which == 0 ? order->quads : 0);
+    size_t records = order->count + (part == PART_HIGH ? order->quads : 0);
+    if (d->plan->features & FEATURE_TILES) records = d->r->bins.count + 1;
     size_t size = (records ? records : 1) * floats * sizeof(float);
     void *data;
     do {
@@ -49,25 +82,21 @@ static mns_status upload(draw *d, gl_buffer *buffer, const char *what, size_t fl
             gl_buffer_reserve(device, buffer, what, size, d->plan->limits.max_storage_block, error);
         if (!status) status = gl_buffer_map(device, buffer, size, &data, error);
         if (status) return status;
-        switch (which) {
-        case 0:
-            list_pack_high(order, d->field, d->plan, data);
-            break;
-        case 1:
-            if (d->plan->features & FEATURE_TILES)
-                tile_bins_pack_low(&d->r->bins, order, d->field, d->plan, data);
-            else
-                list_pack_low(order, d->field, d->plan, data);
-            break;
-        case 2:
-            list_pack_cores(order, d->field, data);
-            break;
-        default:
-            list_pack_colors(order, d->field, d->plan, data);
-            break;
-        }
+        pack(d, part, floats * sizeof(float), data);
     } while (!gl_buffer_unmap(device, buffer));
     return MNS_OK;
+}
+
+mns_status draw_balls_send(draw *d, mns_error *error)
+{
+    list_passes *p = &d->r->passes;
+    bool cores = d->plan->features & FEATURE_CORE_RADII && !(d->plan->features & FEATURE_TILES);
+    d->r->last.low = false;
+    mns_status status = upload(d, &p->balls, "balls", d->plan->ball_floats, PART_HIGH, error);
+    if (!status && cores) status = upload(d, &p->cores, "core radii", 1, PART_CORES, error);
+    if (!status && d->plan->features & FEATURE_COLORS)
+        status = upload(d, &p->colors, "colours", 1, PART_COLORS, error);
+    return status;
 }
 
 /* The indices that draw points farthest first; they change only when there are more balls than ever. */
@@ -90,18 +119,14 @@ static mns_status count_backwards(draw *d, mns_error *error)
 
 mns_status draw_balls_upload(draw *d, mns_error *error)
 {
-    list_passes *p = &d->r->passes;
     if (same_balls(d)) return MNS_OK;
     d->r->last = (render_last){0};
     d->r->binned = false;
     mns_status status = list_order_make(&d->r->order, d->field, d->plan, error);
     draw_mark(d, MNS_PHASE_SORT);
-    if (!status) status = upload(d, &p->balls, "balls", d->plan->ball_floats, 0, error);
+    bool tiles = d->plan->features & FEATURE_TILES; /* whose balls go up with the lists */
+    if (!status && !tiles) status = draw_balls_send(d, error);
     if (!status && d->plan->features & FEATURE_POINTS) status = count_backwards(d, error);
-    bool tiles = d->plan->features & FEATURE_TILES; /* whose cores stay on the CPU */
-    if (!status && d->plan->features & FEATURE_CORE_RADII && !tiles)
-        status = upload(d, &p->cores, "core radii", 1, 2, error);
-    if (!status && d->plan->features & FEATURE_COLORS) status = upload(d, &p->colors, "colours", 1, 3, error);
     draw_mark(d, MNS_PHASE_UPLOAD);
     if (!status) remember(d);
     return status;
@@ -122,7 +147,7 @@ mns_status draw_low_upload(draw *d, mns_error *error)
     if (status) return status;
     if (d->r->last.low) return MNS_OK;
     draw_mark(d, MNS_PHASE_CAST);
-    status = upload(d, &p->balls_low, "balls", d->plan->ball_floats, 1, error);
+    status = upload(d, &p->balls_low, "balls", d->plan->ball_floats, PART_LOW, error);
     d->r->last.low = !status;
     draw_mark(d, MNS_PHASE_UPLOAD);
     return status;

@@ -37,9 +37,13 @@ void draw_mark(draw *d, mns_phase phase);
 void draw_pause(draw *d);
 void draw_send(draw *d, gl_buffer *buffer, const void *data, size_t size);
 
-/* balls.c: sorts and uploads the balls in view, unless they are there already. Errors: MEMORY, UNSUPPORTED.
+/* balls.c: sorts the balls in view, and uploads them but for tiles, unless they are there already. Errors:
+ * MEMORY, UNSUPPORTED.
  */
 mns_status draw_balls_upload(draw *d, mns_error *error);
+/* Sends what the passes read of the balls: all in view, or those of the tiles' lists. Errors: MEMORY,
+ * UNSUPPORTED. */
+mns_status draw_balls_send(draw *d, mns_error *error);
 /* The low words of the balls and the view in doubles, when the first pixel needs them. */
 mns_status draw_low_upload(draw *d, mns_error *error);
 

@@ -2,6 +2,8 @@
 #include "base/status.h"
 #include "render/draw.h"
 
+#include <string.h>
+
 /* ---- Gathered
  * ----------------------------------------------------------------------------------------------------------
  */
@@ -44,33 +46,23 @@ static mns_status gather(draw *d, list_region region, bool *fits, mns_error *err
  * ----------------------------------------------------------------------------------------------------------
  */
 
-static mns_status map(draw *d, gl_buffer *buffer, const char *what, size_t count, uint32_t **data,
-                      mns_error *error)
-{
-    size_t size = count * sizeof **data;
-    mns_status status =
-        gl_buffer_reserve(&d->r->device, buffer, what, size, d->plan->limits.max_storage_block, error);
-    return status ? status : gl_buffer_map(&d->r->device, buffer, size, (void **)data, error);
-}
-
 static mns_status upload_tiles(draw *d, mns_error *error)
 {
+    gl_device *device = &d->r->device;
     list_passes *p = &d->r->passes;
     const tile_bins *bins = &d->r->bins;
-    bool kept;
+    size_t size = (size_t)bins->across * (size_t)bins->down * sizeof(tile_head);
+    void *head;
     do {
-        uint32_t *entry, *head;
-        mns_status status = map(d, &p->entries, "tiles' lists", bins->count + 1, &entry, error);
+        mns_status status = gl_buffer_reserve(device, &p->tile_heads, "tiles", size,
+                                              d->plan->limits.max_storage_block, error);
+        if (!status) status = gl_buffer_map(device, &p->tile_heads, size, &head, error);
         if (status) return status;
-        status = map(d, &p->tile_heads, "tiles", (size_t)bins->across * (size_t)bins->down, &head, error);
-        if (!status) tile_bins_write(bins, entry, head);
-        kept = gl_buffer_unmap(&d->r->device, &p->entries);
-        if (status) return status;
-        kept = gl_buffer_unmap(&d->r->device, &p->tile_heads) && kept;
-    } while (!kept);
+        memcpy(head, bins->head, size);
+    } while (!gl_buffer_unmap(device, &p->tile_heads));
     const int grid[4] = {bins->region.x, bins->region.y, bins->across, bins->shift};
     for (int i = 0; i < 4; i++) p->tile_grid[i] = grid[i];
-    return MNS_OK;
+    return draw_balls_send(d, error);
 }
 
 static mns_status bin(draw *d, list_region region, mns_error *error)
@@ -81,7 +73,6 @@ static mns_status bin(draw *d, list_region region, mns_error *error)
     if (!r->binned || !tile_outlines_serve(bins, d->plan))
         status = tile_outlines_make(bins, &r->order, d->field, d->plan, error);
     r->binned = !status;
-    r->last.low = false; /* of the former lists' balls */
     if (!status) status = tile_bins_make(bins, &r->order, d->field, d->plan, region, error);
     draw_mark(d, MNS_PHASE_BIN);
     if (!status && bins->fits) status = upload_tiles(d, error);

@@ -3,7 +3,6 @@
 #include "base/memory.h"
 #include "base/status.h"
 #include "field/kernel.h"
-#include "list/pack.h"
 #include "tile/mask.h"
 
 #include <omp.h>
@@ -196,10 +195,11 @@ static mns_status reserve(tile_bins *bins, mns_error *error)
 {
     size_t tiles = (size_t)bins->across * (size_t)bins->down;
     if (bins->tile_capacity < tiles) {
-        free(bins->mask), free(bins->length);
+        free(bins->mask), free(bins->length), free(bins->head);
         bins->mask = memory_array(tiles, sizeof *bins->mask);
         bins->length = memory_array(tiles, sizeof *bins->length);
-        bins->tile_capacity = bins->mask && bins->length ? tiles : 0;
+        bins->head = memory_array(tiles, sizeof *bins->head);
+        bins->tile_capacity = bins->mask && bins->length && bins->head ? tiles : 0;
     }
     int wanted = 4 * omp_get_max_threads();
     bins->band_count = wanted < bins->down ? wanted : bins->down;
@@ -227,10 +227,45 @@ static void place_bands(tile_bins *bins)
     }
 }
 
+/* The lists of one band's tiles, from its pairs. */
+static void write_band(tile_bins *bins, const tile_band *band)
+{
+    size_t first = (size_t)band->first * (size_t)bins->across,
+           past = (size_t)band->past * (size_t)bins->across;
+    uint32_t at = (uint32_t)band->begin;
+    for (size_t tile = first; tile < past; tile++) {
+        uint32_t length = bins->length[tile];
+        bins->head[tile] = (tile_head){at, at}; /* `past` runs along the list while it is filled */
+        at += length;
+    }
+    for (size_t k = 0; k < band->count; k++)
+        bins->place[bins->head[band->pair[k].tile].past++] = band->pair[k].ball;
+    for (size_t tile = first; tile < past; tile++)
+        if (!bins->length[tile]) bins->head[tile] = (tile_head){0, 0};
+}
+
+/* False: out of memory. */
+static bool write_lists(tile_bins *bins)
+{
+    size_t wanted = bins->count + 1;
+    if (bins->place_capacity < wanted) {
+        free(bins->place);
+        wanted += wanted / 4;
+        bins->place = memory_array(wanted, sizeof *bins->place);
+        bins->place_capacity = bins->place ? wanted : 0;
+        if (!bins->place) return false;
+    }
+    bins->place[0] = 0;
+#pragma omp parallel for schedule(dynamic, 1) if (bins->count > ORDER_ALONE)
+    for (int i = 0; i < bins->band_count; i++) write_band(bins, &bins->band[i]);
+    return true;
+}
+
 mns_status tile_bins_make(tile_bins *bins, const list_order *order, const mns_field *field,
                           const mns_plan *plan, list_region region, mns_error *error)
 {
-    tile_work work = {order, field, plan, plan->pool_most < TILE_LAST ? plan->pool_most : TILE_LAST, 0};
+    tile_work work = {order, field, plan,
+                      plan->pool_most < TILE_ENTRIES_MOST ? plan->pool_most : TILE_ENTRIES_MOST, 0};
     bins->region = region;
     bins->fits = false;
     bins->shift = choose_shift(bins, order->count);
@@ -249,7 +284,9 @@ mns_status tile_bins_make(tile_bins *bins, const list_order *order, const mns_fi
     }
     if (failed) return status_no_memory(error, "while binning the balls");
     place_bands(bins);
-    bins->fits = bins->count < work.most;
+    if (bins->count >= work.most) return MNS_OK;
+    if (!write_lists(bins)) return status_no_memory(error, "while binning the balls");
+    bins->fits = true;
     return MNS_OK;
 }
 
@@ -259,40 +296,6 @@ bool tile_bins_serve(const tile_bins *bins, const mns_plan *plan, list_region re
     return bins->fits && tile_outlines_serve(bins, plan) && bins->count < plan->pool_most &&
            last->x == region.x && last->y == region.y && last->width == region.width &&
            last->height == region.height;
-}
-
-void tile_bins_write(const tile_bins *bins, uint32_t *entry, uint32_t *head)
-{
-    entry[0] = TILE_LAST;
-#pragma omp parallel for schedule(dynamic, 1) if (bins->count > ORDER_ALONE)
-    for (int i = 0; i < bins->band_count; i++) {
-        const tile_band *band = &bins->band[i];
-        size_t first = (size_t)band->first * (size_t)bins->across,
-               past = (size_t)band->past * (size_t)bins->across;
-        uint32_t at = (uint32_t)band->begin;
-        for (size_t tile = first; tile < past; tile++) {
-            head[tile] = at;
-            at += bins->length[tile];
-        }
-        /* head[tile] runs along the tile's list while it is filled, and is set back after. */
-        for (size_t k = 0; k < band->count; k++) entry[head[band->pair[k].tile]++] = band->pair[k].ball;
-        for (size_t tile = first; tile < past; tile++) {
-            uint32_t length = bins->length[tile];
-            if (length) entry[head[tile] - 1] |= TILE_LAST;
-            head[tile] = length ? head[tile] - length : 0;
-        }
-    }
-}
-
-void tile_bins_pack_low(const tile_bins *bins, const list_order *order, const mns_field *field,
-                        const mns_plan *plan, float *out)
-{
-    for (int i = 0; i < bins->band_count; i++) {
-        const tile_band *band = &bins->band[i];
-        for (size_t k = 0; k < band->count; k++) /* a ball's pairs stand together */
-            if (k == 0 || band->pair[k].ball != band->pair[k - 1].ball)
-                list_pack_low_ball(order, field, plan, band->pair[k].ball, out);
-    }
 }
 
 bool tile_bins_lengths(const tile_bins *bins, list_lengths *lengths)
@@ -310,7 +313,7 @@ bool tile_bins_lengths(const tile_bins *bins, list_lengths *lengths)
 
 void tile_bins_free(tile_bins *bins)
 {
-    free(bins->outline), free(bins->mask), free(bins->length);
+    free(bins->outline), free(bins->mask), free(bins->length), free(bins->head), free(bins->place);
     for (int i = 0; i < bins->band_capacity; i++) free(bins->band[i].pair), free(bins->band[i].core);
     free(bins->band);
     *bins = (tile_bins){0};

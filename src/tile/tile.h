@@ -12,8 +12,13 @@
 #include "list/lengths.h"
 #include "tile/outline.h"
 
-/* An entry of a tile's list is a ball's place in the order; the last of a tile carries this bit. */
-#define TILE_LAST 0x80000000u
+/* A tile's list is the entries [first, past); both are 0 where it has none. */
+typedef struct tile_head {
+    uint32_t first, past;
+} tile_head;
+
+/* More entries have no place in what a pixel to resolve keeps (glsl/resolve_entry.glsl). */
+enum { TILE_ENTRIES_MOST = 1 << 30 };
 
 /* Fewer balls are binned by one thread; see ORDER_ALONE. */
 enum { BIN_ALONE = 4096 };
@@ -42,8 +47,11 @@ typedef struct tile_bins {
     float slack;      /* no ray enters a ball before its effective distance less this */
     tile_outline *outline; /* of the order's balls */
     size_t ball_capacity;
+    uint32_t *place; /* of the order's balls, an entry; the lists begin with entry 1 */
+    size_t place_capacity;
     uint64_t *mask;   /* a tile */
     uint32_t *length; /* a tile */
+    tile_head *head;  /* a tile */
     size_t tile_capacity;
     tile_band *band;
     int band_count, band_capacity;
@@ -60,12 +68,6 @@ mns_status tile_bins_make(tile_bins *bins, const list_order *order, const mns_fi
                           const mns_plan *plan, list_region region, mns_error *error);
 /* Whether the bins that were made last are also this plan's of that region, the order being the same. */
 bool tile_bins_serve(const tile_bins *bins, const mns_plan *plan, list_region region);
-/* Writes the lists: entry[0] is no list's, bins->count follow; head[t] is where tile t's list begins, 0 for
- * none. */
-void tile_bins_write(const tile_bins *bins, uint32_t *entry, uint32_t *head);
-/* What list_pack_low writes, of those balls that are in some list. */
-void tile_bins_pack_low(const tile_bins *bins, const list_order *order, const mns_field *field,
-                        const mns_plan *plan, float *out);
 /* Notes every pixel's list's length. False: out of memory. */
 bool tile_bins_lengths(const tile_bins *bins, list_lengths *lengths);
 void tile_bins_free(tile_bins *bins);
