@@ -26,12 +26,12 @@ def scene_path(file):
     return os.path.join(os.environ["SCENES"], file + ".csv")
 
 
-def draw(program, scene, size, method, options):
-    """Medians of the phases over REPEAT moving frames, and the rest of the statistics, of one process."""
+def draw(program, scene, size, method, options, repeat=REPEAT):
+    """Medians of the phases over `repeat` moving frames, and the rest of the statistics, of one process."""
     with tempfile.TemporaryDirectory() as folder:
         stats = os.path.join(folder, "stats.json")
         command = [program, "render", scene, "-o", os.path.join(folder, "image.png"), "--method", method, "--size",
-                   size, "--repeat", str(REPEAT), "--moving", "--stats", stats, *options]
+                   size, "--repeat", str(repeat), "--moving", "--stats", stats, *options]
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode:
             fail(f"{' '.join(command)}: {done.stderr.strip()}")

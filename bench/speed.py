@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The tables of speed.md: speed.py ratios|paper|large PROGRAM [SCENE...]. Called by speed.sh, which sets LIMIT,
+"""The tables of speed.md: speed.py ratios|paper|large|growth PROGRAM [SCENE...]. Called by speed.sh, which sets LIMIT,
 LIMIT_VECTORS, SCENES."""
 import statistics
 import sys
@@ -16,7 +16,10 @@ RATIOS = {
 }
 # scene: file, how many times faster than the paper's passes at least
 PAPER = {"S100k": ("S1_100k", 3), "S1M": ("S1_1M", 6), "D100k": ("S2_100k", 3), "D1M": ("S2_1M", 6)}
-LARGE_MOST_MS = 1000
+LARGE_MOST_MS = 1000  # 1,600,000 balls, dense, 1024x768
+GROWTH = [100_000, 400_000, 1_600_000, 6_400_000, 16_000_000]  # scattered balls
+GROWTH_REPEAT = 3
+GROWTH_MOST_MIB = 6 * 1024  # the whole program, of the last
 
 
 def kind_of(name):
@@ -31,9 +34,14 @@ def verdict(value, goal, bar):
     return "goal" if value <= goal else "bar" if value <= bar else "misses the bar"
 
 
+def print_tally(verdicts):
+    """The last line of a table: how many rows came to what."""
+    print("\nOf {} rows: {}.".format(len(verdicts), ", ".join(f"{verdicts.count(v)} {v}" for v in sorted(set(verdicts)))))
+
+
 def print_ratios(program, wanted):
     """Yardstick and tile in turn, ROUNDS times; medians of the rounds."""
-    rows, renderer = [], ""
+    rows, verdicts, renderer = [], [], ""
     for size, more in SIZES.items():
         for name in wanted:
             file, goal, bar = RATIOS[name]
@@ -47,18 +55,20 @@ def print_ratios(program, wanted):
                       for phase in ("sort", "bin", "upload", "cast", "total")]
             unit = statistics.median(limit)
             ratio = phases[-1] / unit
+            verdicts.append(verdict(ratio, goal * more, bar * more))
             cells = [name, size, f"{unit:.1f}", *(f"{ms:.1f}" for ms in phases), f"{ratio:.2f}", f"{goal * more:.2f}",
-                     f"{bar * more:.2f}", verdict(ratio, goal * more, bar * more)]
+                     f"{bar * more:.2f}", verdicts[-1]]
             rows.append("| " + " | ".join(cells) + " |")
     print(f"{machine(renderer)}; `exact`, medians of {ROUNDS} rounds of {REPEAT} moving frames, milliseconds.\n")
     print("| scene | size | yardstick, build + trace | sort | bin | upload | cast | `total` | `total` / yardstick | goal | "
           "at most | reached |\n|-|-|-|-|-|-|-|-|-|-|-|-|")
     print("\n".join(rows))
+    print_tally(verdicts)
 
 
 def print_paper(program, wanted):
     """The paper's passes and tile in turn."""
-    rows, renderer = [], ""
+    rows, verdicts, renderer = [], [], ""
     for name in wanted:
         if name not in PAPER:
             continue
@@ -70,22 +80,45 @@ def print_paper(program, wanted):
                 times[method].append(median_ms(stats)["total"])
                 renderer = stats["renderer"]
         paper, tile = (statistics.median(times[method]) for method in ("list", "tile"))
-        reached = "yes" if paper / tile >= least else "no"
-        rows.append(f"| {name} | {paper:.1f} | {tile:.1f} | {paper / tile:.2f} | {least} | {reached} |")
+        verdicts.append("goal" if paper / tile >= least else "misses the bar")
+        rows.append(f"| {name} | {paper:.1f} | {tile:.1f} | {paper / tile:.2f} | {least} | {verdicts[-1]} |")
     print(f"{renderer}; 640x480, medians of {ROUNDS} rounds of {REPEAT} moving frames, `total` in milliseconds.\n")
     print("| scene | `list --gather paper` | `tile` | times faster | at least | reached |\n|-|-|-|-|-|-|")
     print("\n".join(rows))
+    print_tally(verdicts)
 
 
 def print_large(program, _):
     stats = draw(program, "dense:1600000", "1024x768", "tile", options_of("D"))
     ms, peak = median_ms(stats), stats["memory"]["peak_rss_bytes"] / 2**20
-    print(f"{stats['renderer']}; 1,600,000 balls, dense, 1024x768, median of {REPEAT} moving frames: {ms['total']:.0f} ms "
-          f"(sort {ms['sort']:.0f}, bin {ms['bin']:.0f}, upload {ms['upload']:.0f}, cast {ms['cast']:.0f}); at most "
-          f"{LARGE_MOST_MS}. Peak memory {peak:.0f} MiB.")
+    print(f"{stats['renderer']}; 1,600,000 balls, dense, 1024x768, median of {REPEAT} moving frames.\n")
+    print("| sort | bin | upload | cast | `total` | at most | peak memory, MiB | reached |\n|-|-|-|-|-|-|-|-|")
+    times = " | ".join(f"{ms[phase]:.1f}" for phase in ("sort", "bin", "upload", "cast", "total"))
+    print(f"| {times} | {LARGE_MOST_MS} | {peak:.0f} | {verdict(ms['total'], LARGE_MOST_MS, LARGE_MOST_MS)} |")
 
 
-TABLES = {"ratios": print_ratios, "paper": print_paper, "large": print_large}
+def print_growth(program, _):
+    """From row to row a ball may cost no more than it did among fewer."""
+    rows, verdicts, renderer, most = [], [], "", None
+    for count in GROWTH:
+        stats = draw(program, f"scattered:{count}", "640x480", "tile", options_of("S"), GROWTH_REPEAT)
+        renderer, total = stats["renderer"], median_ms(stats)["total"]
+        peak, load = stats["memory"]["peak_rss_bytes"] / 2**20, stats["ms"]["load"] / 1000
+        each = 1e6 * total / count
+        most = most or each
+        good = each <= most and peak <= GROWTH_MOST_MIB
+        verdicts.append("goal" if good else "misses the bar")
+        rows.append(f"| {count:,} | {load:.2f} | {total:.1f} | {each:.0f} | {most:.0f} | {peak:.0f} | {GROWTH_MOST_MIB} | "
+                    f"{verdicts[-1]} |")
+        most = each
+    print(f"{renderer}; `scattered`, 640x480, median of {GROWTH_REPEAT} moving frames.\n")
+    print("| balls | load, s | frame, ms | a ball, ns | at most | peak memory, MiB | at most | reached |\n"
+          "|-|-|-|-|-|-|-|-|")
+    print("\n".join(rows))
+    print_tally(verdicts)
+
+
+TABLES = {"ratios": print_ratios, "paper": print_paper, "large": print_large, "growth": print_growth}
 
 if __name__ == "__main__":
     if len(sys.argv) < 3 or sys.argv[1] not in TABLES:

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The tables of speed.md, measured here and now: bench/speed.sh [ratios|paper|large]... [SCENE]... (default: all tables, all
-# scenes). Builds the yardstick and makes its scenes first. Nothing else should run meanwhile. Needs what ./run test
+# The tables of speed.md, measured here and now: bench/speed.sh [ratios|paper|large|growth]... [SCENE]... (default: all
+# tables, all scenes). Builds the yardstick and makes its scenes first. Nothing else should run meanwhile. Needs what ./run test
 # installs, g++ and python3.
 set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/.."
@@ -17,11 +17,11 @@ export LIMIT_VECTORS
 tables=() scenes=()
 for argument in "$@"; do
     case $argument in
-    ratios | paper | large) tables+=("$argument") ;;
+    ratios | paper | large | growth) tables+=("$argument") ;;
     *) scenes+=("$argument") ;;
     esac
 done
-[[ ${#tables[@]} -gt 0 ]] || tables=(ratios paper large)
+[[ ${#tables[@]} -gt 0 ]] || tables=(ratios paper large growth)
 for table in "${tables[@]}"; do
     python3 bench/speed.py "$table" "$program" "${scenes[@]}"
     echo
