@@ -246,9 +246,9 @@ static void lengths_beyond_floats_are_refused(void **state)
     for (int i = 0; i < 2; i++) {
         balls b = balls_make(3);
         if (i)
-            b.at[0] = 1e30;
+            b.at[0] = 1e50;
         else
-            b.radius[1] = 1e-30;
+            b.radius[1] = 1e-50;
         mns_field *field = field_of(&b, 0.2);
         assert_int_equal(fbvh_build(builder, field, NULL, &tree, &error), MNS_ERROR_UNSUPPORTED);
         mns_field_destroy(field);

@@ -62,11 +62,12 @@ static mns_status check_lengths(const mns_field *f, const double origin[3], doub
     *most = 0;
     for (int a = 0; a < 3; a++) *most = fmax(*most, fmax(f->hi[a] - origin[a], origin[a] - f->lo[a]));
     if (*most + f->radius_max < LENGTH_MOST && f->radius_min > LENGTH_LEAST) return MNS_OK;
+    const double unit = field_unit(f);
     return status_fail(
         error, MNS_ERROR_UNSUPPORTED,
         "fbvh: radii from %g to %g in a field that reaches %g from its middle do not fit floats; "
-        "scale the scene so that all lie between %g and %g",
-        f->radius_min, f->radius_max, *most, LENGTH_LEAST, LENGTH_MOST);
+        "expected all between %g and %g",
+        f->radius_min * unit, f->radius_max * unit, *most * unit, LENGTH_LEAST * unit, LENGTH_MOST * unit);
 }
 
 static float strength_as_float(double q)
