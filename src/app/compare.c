@@ -84,9 +84,9 @@ static const option_row ROWS[] = {
     {"output", 'o', "FOLDER", "gets results.csv, results.json, chart.svg (by gnuplot) and index.html",
      option_output},
     {"runs", 0, "METHOD:SOLVER[:KEY=VALUE]...,...",
-     "what to draw by (default: every method and solver of this build). Methods: list:exact, list:cubic, "
-     "list:cubic-monomial, reference:exact. Keys: gather, slots, root-steps, shuffle, pool and aa, as the "
-     "options of render",
+     "what to draw by (default: every method and solver of this build): list and tile with exact, cubic and "
+     "cubic-monomial, fbvh and bvh with exact and secant, reference:exact. Keys: gather, slots, root-steps, "
+     "shuffle, pool, aa and secant-steps, as the options of render",
      option_runs},
     {"frames", 0, "N",
      "frames a run, of which medians are taken, 5 or more (default 5), after two to warm up", option_frames},
@@ -208,9 +208,6 @@ static mns_status compare_runs(compare_job *job, const char *command, mns_error 
 static mns_status compare_input(const app_options *o, const char *command, mns_error *error)
 {
     if (!o->output) return app_fail(error, MNS_ERROR_USAGE, "nothing to write: expected -o FOLDER");
-    if (o->tolerance_set)
-        return app_fail(error, MNS_ERROR_USAGE,
-                        "--tolerance-t, -normal and -mask: expected two saved images beside them");
     compare_job job = {.o = o};
     mns_status status = compare_runs(&job, command, error);
     pictures_free(&job.pictures);
@@ -224,15 +221,42 @@ static mns_status compare_input(const app_options *o, const char *command, mns_e
 /* ---- The command
  * --------------------------------------------------------------------------------------------------- */
 
-/* Two saved images, and no other thing? Of one alone, or of a third, the reader of inputs complains. */
-static bool are_images(const app_options *o)
+static bool ends_in(const char *name, const char *ending)
 {
-    size_t images = 0;
+    const char *dot = strrchr(name, '.');
+    return dot && strcasecmp(dot, ending) == 0;
+}
+
+/* Whether two saved images are to be compared. Errors: USAGE (an image that has no fellow, or too many; what
+ * would be of no use beside the inputs). */
+static mns_status find_images(const app_options *o, bool *are_images, mns_error *error)
+{
+    const char *image = NULL; /* one that cannot be compared, where there is one */
+    size_t saved = 0;
     for (size_t i = 0; i < o->input_count; i++) {
-        const char *ending = strrchr(o->inputs[i], '.');
-        images += ending && strcasecmp(ending, ".exr") == 0;
+        bool is_saved = ends_in(o->inputs[i], ".exr");
+        saved += is_saved;
+        if (ends_in(o->inputs[i], ".png") || (is_saved && !image)) image = o->inputs[i];
     }
-    return images == 2 && o->input_count == 2;
+    *are_images = saved == 2 && o->input_count == 2;
+    if (image && !*are_images)
+        return app_fail(error, MNS_ERROR_USAGE,
+                        "%.200s: an image: expected two of them, both .exr, and no other input", image);
+    if (o->suite_case || o->quick)
+        return app_fail(error, MNS_ERROR_USAGE, "--case and --quick: expected --suite stiff beside them");
+    if (*are_images && o->runs)
+        return app_fail(error, MNS_ERROR_USAGE, "--runs: expected something to draw, not two saved images");
+    if (*are_images || !o->tolerance_set) return MNS_OK;
+    return app_fail(error, MNS_ERROR_USAGE,
+                    "--tolerance-t, -normal and -mask: expected two saved images beside them");
+}
+
+static mns_status compare_inputs(const app_options *o, const char *command, mns_error *error)
+{
+    bool images = false;
+    mns_status status = find_images(o, &images, error);
+    if (status) return status;
+    return images ? compare_images(o, command, error) : compare_input(o, command, error);
 }
 
 /* The command as it was typed, for the results; NULL where memory ends. */
@@ -260,7 +284,7 @@ int app_compare(int argc, char **argv)
     if (!status && !o.help && o.suite)
         status = compare_suite(&o, command, &error);
     else if (!status && !o.help)
-        status = are_images(&o) ? compare_images(&o, command, &error) : compare_input(&o, command, &error);
+        status = compare_inputs(&o, command, &error);
     options_free(&o);
     free(command);
     return status ? app_report(&error) : APP_DONE;

@@ -167,6 +167,7 @@ json_t *stats_json_frame(const stats_frame *frame)
     json_object_set_new(object, "context", json_string(frame->context));
     json_object_set_new(object, "size", json_pack("[i, i]", s->width, s->height));
     json_object_set_new(object, "timed", json_boolean(s->timed));
+    json_object_set_new(object, "t_unit", json_number(s->t_unit));
     json_object_set_new(object, "ms", milliseconds(s->ms, s->ms_total, frame));
     if (frame->runs) json_object_set_new(object, "repeat", repeats(frame));
     json_object_set_new(object, "counts", counts(frame));

@@ -19,11 +19,10 @@ mns_status field_choose_unit(double radius_min, double extent, double farthest, 
     bool plain = radius_min >= LEAST && extent <= MOST;
     double chosen = plain ? 1 : ldexp(1, (ilogb(radius_min) + ilogb(extent)) / 2);
     if (!(radius_min / chosen >= DOUBLES_LEAST && fmax(extent, farthest) / chosen <= DOUBLES_MOST))
-        return status_fail(
-            error, MNS_ERROR_UNSUPPORTED,
-            "radii from %g and lengths to %g: too far apart for doubles to square both; expected "
-            "less than %g between them",
-            radius_min, fmax(extent, farthest), DOUBLES_MOST);
+        return status_fail(error, MNS_ERROR_UNSUPPORTED,
+                           "radii from %g and lengths to %g: too far apart for doubles to square both; move "
+                           "the field to 0, or split it",
+                           radius_min, fmax(extent, farthest));
     *unit = chosen;
     return MNS_OK;
 }
