@@ -47,12 +47,24 @@ bool cast_find_piece()
             secant_above = value;
         }
     }
+#ifndef OVERLAPS
+    // The balls whose centres project beyond the leaf's box: the nearest place at which the leaf knows f is where the ray leaves it.
+    if (secant_high == FAR_AWAY) {
+        float value = secant_at(cast_leaf.end);
+        if (value > 0.0) {
+            secant_high = cast_leaf.end;
+            secant_above = value;
+        }
+    }
+#endif
     cast_work += slot_count * (slot_count + 1);
     return secant_high < FAR_AWAY;
 }
 
+// Secants within the bracket. An end that stays twice running counts half as much, or it would stay for good and the other creep.
 int cast_solve(out float hit)
 {
+    int stays = 0; // how often the low end stayed, negative: the high one
     active_from = secant_low;
     hit = secant_high;
     for (int step = 0; step < secant_steps && secant_low < secant_high; step++) {
@@ -62,9 +74,13 @@ int cast_solve(out float hit)
         if (value < 0.0) {
             secant_low = x;
             secant_below = value;
+            stays = min(stays, 0) - 1;
+            if (stays < -1) secant_above *= 0.5;
         } else {
             secant_high = x;
             secant_above = value;
+            stays = max(stays, 0) + 1;
+            if (stays > 1) secant_below *= 0.5;
         }
         COUNT(w, 1);
         cast_work += slot_count;
