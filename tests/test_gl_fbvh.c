@@ -34,6 +34,13 @@ static void expect_field(draw_fixture *d, const char *what, const mns_field *fie
     }
 }
 
+/* Of so many variants, those that a back end is tested with: through the second one, which has the same
+ * rasteriser behind it, the first alone (see exact_kernel_step). */
+static size_t of_variants(const draw_fixture *d, size_t count)
+{
+    return d->gl.backend == MNS_BACKEND_OSMESA ? 1 : count;
+}
+
 /* ---- Every kernel ---- */
 
 static void scattered_balls_are_exact_with_every_kernel(void **state)
@@ -58,15 +65,16 @@ static void strengths_of_both_signs_are_exact(void **state)
 {
     static const mns_kernel kernels[] = {MNS_KERNEL_POLY3, MNS_KERNEL_WYVILL, MNS_KERNEL_PERLIN};
     mns_view view = exact_view();
-    for (size_t i = 0; i < 3; i++)
+    for (size_t i = 0; i < of_variants(*state, 3); i++)
         expect_cloud(*state, "strengths of both signs", &cloud_signs, kernels[i], &view);
 }
 
 static void radii_over_a_decade_are_exact(void **state)
 {
     mns_view view = exact_view();
-    expect_cloud(*state, "mixed radii", &cloud_radii, MNS_KERNEL_POLY3, &view);
-    expect_cloud(*state, "mixed radii", &cloud_radii, MNS_KERNEL_WENDLAND, &view);
+    static const mns_kernel kernels[] = {MNS_KERNEL_POLY3, MNS_KERNEL_WENDLAND};
+    for (size_t i = 0; i < of_variants(*state, 2); i++)
+        expect_cloud(*state, "mixed radii", &cloud_radii, kernels[i], &view);
 }
 
 /* ---- Every kind of place ---- */
@@ -74,7 +82,7 @@ static void radii_over_a_decade_are_exact(void **state)
 static void an_eye_inside_a_ball_but_outside_the_surface_is_exact(void **state)
 {
     static const mns_kernel kernels[] = {MNS_KERNEL_POLY3, MNS_KERNEL_PERLIN};
-    for (size_t i = 0; i < 2; i++) {
+    for (size_t i = 0; i < of_variants(*state, 2); i++) {
         mns_field *field = cloud_field(&cloud_plain, kernels[i]);
         mns_view view = exact_view();
         view.fov = 90;
@@ -88,7 +96,7 @@ static void an_eye_inside_the_surface_sees_the_way_out(void **state)
 {
     static const mns_kernel kernels[] = {MNS_KERNEL_POLY2, MNS_KERNEL_WENDLAND, MNS_KERNEL_POLY3};
     static const cloud *const clouds[] = {&cloud_plain, &cloud_signs, &cloud_radii};
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < of_variants(*state, 3); i++) {
         mns_field *field = cloud_field(clouds[i], kernels[i]);
         mns_view view = exact_view();
         view.fov = 90;
@@ -107,7 +115,7 @@ static void a_far_eye_is_exact_to_a_small_part_of_a_radius(void **state)
     } cases[] = {{1e4, &cloud_plain, MNS_KERNEL_POLY3},
                  {1e5, &cloud_plain, MNS_KERNEL_WENDLAND},
                  {1e5, &cloud_signs, MNS_KERNEL_POLY3}};
-    for (size_t i = 0; i < 3 * METHODS; i++) {
+    for (size_t i = 0; i < of_variants(*state, 3) * METHODS; i++) {
         size_t k = i / METHODS;
         mns_field *field = cloud_field(cases[k].cloud, cases[k].kernel);
         double distance = cases[k].radii_away * cloud_plain.radius_low;
@@ -127,15 +135,16 @@ static void a_field_far_from_zero_is_exact(void **state)
 {
     mns_view view = exact_view();
     for (int a = 0; a < 3; a++) view.eye[a] += cloud_moved.offset, view.look_at[a] += cloud_moved.offset;
-    expect_cloud(*state, "offset 1e6", &cloud_moved, MNS_KERNEL_POLY3, &view);
-    expect_cloud(*state, "offset 1e6", &cloud_moved, MNS_KERNEL_PERLIN, &view);
+    static const mns_kernel kernels[] = {MNS_KERNEL_POLY3, MNS_KERNEL_PERLIN};
+    for (size_t i = 0; i < of_variants(*state, 2); i++)
+        expect_cloud(*state, "offset 1e6", &cloud_moved, kernels[i], &view);
 }
 
 static void a_very_wide_field_of_view_is_exact(void **state)
 {
     mns_view view = draw_view((const double[3]){0.5, 0.5, 1.3}, (const double[3]){0.5, 0.5, 0.5}, 150,
                               EXACT_WIDE, EXACT_HIGH);
-    mns_field *field = cloud_field(&cloud_plain, MNS_KERNEL_POLY4);
+    mns_field *field = cloud_field(&cloud_plain, MNS_KERNEL_POLY3);
     expect_field(*state, "150 degrees", field, &view, 0.05);
     mns_field_destroy(field);
 }
@@ -185,7 +194,7 @@ static void one_ball_is_a_sphere(void **state)
 /* So many on one point that they outgrow the slots, and that no tree can part them. */
 static void coincident_balls_add_up(void **state)
 {
-    enum { MANY = 150 };
+    enum { MANY = 300 };
     double position[3 * MANY], strength[MANY];
     for (size_t i = 0; i < MANY; i++) {
         position[3 * i] = 0.2, position[3 * i + 1] = -0.1, position[3 * i + 2] = 0.3;
@@ -194,7 +203,7 @@ static void coincident_balls_add_up(void **state)
     mns_view view = draw_view((const double[3]){0, 1, 3}, position, 45, EXACT_WIDE, EXACT_HIGH);
     for (int signed_too = 0; signed_too < 2; signed_too++) {
         mns_field *field =
-            draw_field(MANY, position, NULL, 1, signed_too ? strength : NULL, MNS_KERNEL_WYVILL);
+            draw_field(MANY, position, NULL, 1, signed_too ? strength : NULL, MNS_KERNEL_POLY3);
         expect_field(*state, "coincident balls", field, &view, 0.25);
         assert_true(((draw_fixture *)*state)->stats.fallbacks.active_overflow > 0);
         mns_field_destroy(field);
@@ -335,6 +344,35 @@ static void slow_paths_give_the_same_picture(void **state)
     draw_fixture_check(d);
 }
 
+/* The published solver misses what rises and falls between two centres' projections, and takes a later root
+ * where a bracket holds several: few pixels, and nothing else. */
+static void secants_are_off_in_few_pixels(void **state)
+{
+    draw_fixture *d = *state;
+    mns_view view = exact_view();
+    mns_field *field = cloud_field(&cloud_plain, MNS_KERNEL_POLY3);
+    for (int k = 0; k < METHODS; k++) {
+        mns_options options = methods[k];
+        size_t hits = 0, missed = 0, other = 0;
+        mns_image *exact = draw_image(d, field, &view, NULL, &options);
+        options.solver = MNS_SOLVER_SECANT;
+        mns_image *secant = draw_image(d, field, &view, NULL, &options);
+        for (size_t i = 0; i < (size_t)EXACT_WIDE * EXACT_HIGH; i++) {
+            bool hit = isfinite(exact->t[i]);
+            assert_true(hit || !isfinite(secant->t[i]));
+            hits += hit;
+            missed += hit && !isfinite(secant->t[i]);
+            other += hit && fabsf(secant->t[i] - exact->t[i]) > 1e-5f * exact->t[i];
+        }
+        if (hits < 1000 || missed + other > hits / 100)
+            fail_msg("%zu hits, %zu missed, %zu elsewhere", hits, missed, other);
+        mns_image_destroy(exact);
+        mns_image_destroy(secant);
+    }
+    mns_field_destroy(field);
+    draw_fixture_check(d);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -355,6 +393,7 @@ int main(void)
         cmocka_unit_test(reading_by_texels_or_by_storage_blocks_gives_the_same_bits),
         cmocka_unit_test(small_blocks_make_the_tree_smaller),
         cmocka_unit_test(slow_paths_give_the_same_picture),
+        cmocka_unit_test(secants_are_off_in_few_pixels),
     };
     return cmocka_run_group_tests_name("fbvh", tests, draw_fixture_setup, draw_fixture_teardown);
 }

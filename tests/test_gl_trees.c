@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -219,6 +220,24 @@ static void a_host_is_drawn_on_by_trees_too(void **state)
 
 /* ---- Counts ---- */
 
+/* An EXR file keeps every count, each under its own name: one read back is the same bits. */
+static void expect_read_back(const mns_image *counted)
+{
+    mns_error error;
+    char path[] = "/tmp/mns_work_XXXXXX.exr";
+    mns_image *back;
+    int file = mkstemps(path, 4);
+    assert_true(file >= 0);
+    close(file);
+    if (mns_image_write(counted, path, &error) || mns_image_read(path, &back, &error))
+        fail_msg("%s", error.text);
+    remove(path);
+    assert_non_null(back->work);
+    size_t count = (size_t)counted->width * (size_t)counted->height * MNS_WORK_COUNT;
+    assert_memory_equal(back->work, counted->work, count * sizeof *back->work);
+    mns_image_destroy(back);
+}
+
 static void counts_are_made_where_they_are_asked_for(void **state)
 {
     draw_fixture *d = *state;
@@ -254,6 +273,7 @@ static void counts_are_made_where_they_are_asked_for(void **state)
         size_t different = 0;
         for (size_t i = 1; i < pixels; i++) different += heat->rgba[4 * i] != heat->rgba[0];
         assert_true(different > 100);
+        expect_read_back(counted);
         mns_image_destroy(heat);
         mns_image_destroy(plain);
         mns_image_destroy(counted);

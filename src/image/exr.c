@@ -21,7 +21,7 @@ void image_list_channels(const mns_image *image, image_channels *channels)
         {"t.lo", image->t_lo, 1, 0},
     };
     const image_channel work[MNS_WORK_COUNT] = {
-        {"work.balls", image->work, MNS_WORK_COUNT, MNS_WORK_BALLS},
+        {IMAGE_WORK, image->work, MNS_WORK_COUNT, MNS_WORK_BALLS},
         {"work.leaves", image->work, MNS_WORK_COUNT, MNS_WORK_LEAVES},
         {"work.nodes", image->work, MNS_WORK_COUNT, MNS_WORK_NODES},
         {"work.rounds", image->work, MNS_WORK_COUNT, MNS_WORK_ROUNDS},

@@ -22,7 +22,8 @@ typedef struct image_channels {
     image_channel channel[IMAGE_CHANNELS_MOST];
 } image_channels;
 
-/* Planes that not every image has; counts of work are written and never read back. */
+/* Planes that not every image has; and the first of the counts of a ray's work, which come together. */
+#define IMAGE_WORK "work.balls"
 enum { IMAGE_OPTIONAL = 6 };
 extern const char *const image_optional_names[IMAGE_OPTIONAL];
 /* Where an image keeps optional plane `index`. */

@@ -134,12 +134,9 @@ const exr_attr_chlist_entry_t *image_exr_entry(const exr_attr_chlist_t *list, co
     return NULL;
 }
 
-/* Are all our channels there, as we write them? Planes are made for the optional ones that are. */
-static mns_status check_channels(const image_reader *reader, mns_image *image, image_channels *channels)
+/* Planes for those that not every image has, where the file has them. */
+static mns_status make_optional(const image_reader *reader, const exr_attr_chlist_t *list, mns_image *image)
 {
-    const exr_attr_chlist_t *list = NULL;
-    exr_result_t result = exr_get_channels(reader->context, 0, &list);
-    if (result != EXR_ERR_SUCCESS) return image_exr_damaged(reader, result);
     size_t pixels = (size_t)image->width * (size_t)image->height;
     for (int i = 0; i < IMAGE_OPTIONAL; i++) {
         if (!image_exr_entry(list, image_optional_names[i])) continue;
@@ -147,6 +144,21 @@ static mns_status check_channels(const image_reader *reader, mns_image *image, i
         *plane = memory_array(pixels, sizeof **plane);
         if (!*plane) return status_no_memory(reader->error, "reading an EXR");
     }
+    if (image_exr_entry(list, IMAGE_WORK)) {
+        image->work = memory_array(pixels, MNS_WORK_COUNT * sizeof *image->work);
+        if (!image->work) return status_no_memory(reader->error, "reading an EXR");
+    }
+    return MNS_OK;
+}
+
+/* Are all our channels there, as we write them? Planes are made for the optional ones that are. */
+static mns_status check_channels(const image_reader *reader, mns_image *image, image_channels *channels)
+{
+    const exr_attr_chlist_t *list = NULL;
+    exr_result_t result = exr_get_channels(reader->context, 0, &list);
+    if (result != EXR_ERR_SUCCESS) return image_exr_damaged(reader, result);
+    mns_status status = make_optional(reader, list, image);
+    if (status) return status;
     image_list_channels(image, channels);
     for (int i = 0; i < channels->count; i++) {
         const char *name = channels->channel[i].name;
