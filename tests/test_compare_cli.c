@@ -31,6 +31,7 @@ static void wrong_usage_is_refused(void **state)
         {"compare", "nothing to write: expected -o FOLDER"},
         {"compare scattered:10", "nothing to write: expected -o FOLDER"},
         {"compare -o x", "no input"},
+        {"compare scattered:10 -o ''", "the folder for the results has no name"},
         {"compare scattered:10 -o x --frames 4", "--frames 4: expected a whole number from 5"},
         {"compare scattered:10 -o x --runs list", "no such METHOD:SOLVER"},
         {"compare scattered:10 -o x --runs list:exact:hurry=1", "unknown key hurry"},

@@ -67,6 +67,8 @@ static mns_status check_parent(const char *path, mns_error *error)
 mns_status folder_check(const char *path, mns_error *error)
 {
     struct stat about;
+    if (!*path)
+        return status_fail(error, MNS_ERROR_USAGE, "the folder for the results has no name; give one");
     mns_status status = check_parent(path, error);
     if (status) return status;
     if (stat(path, &about)) return errno == ENOENT ? MNS_OK : failed(path, "look there", errno, error);
