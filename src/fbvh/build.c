@@ -124,11 +124,23 @@ static mns_status grow_tree(fbvh_builder *b, builder_slot *slot, const work_set 
     return MNS_OK;
 }
 
+void fbvh_builder_keep(fbvh_builder *b, const fbvh_tree *tree)
+{
+    b->kept = tree;
+}
+
+/* The slot of the build before last, or the one that does not hold what is kept. */
+static int next_slot(const fbvh_builder *b)
+{
+    return b->kept ? b->kept == &b->slot[0].tree : !b->last;
+}
+
 mns_status fbvh_build(fbvh_builder *b, const mns_field *field, const fbvh_options *options,
                       const fbvh_tree **tree, mns_error *error)
 {
     double start = clock_ms();
-    builder_slot *slot = &b->slot[!b->last];
+    const int next = next_slot(b);
+    builder_slot *slot = &b->slot[next];
     work_set set;
     mns_status status = fbvh_options_resolve(options, &set.options, error);
     if (status) return status;
@@ -154,7 +166,7 @@ mns_status fbvh_build(fbvh_builder *b, const mns_field *field, const fbvh_option
     slot->tree.index = slot->index;
     count_bytes(b, slot);
     slot->tree.figures.build_ms = clock_ms() - start;
-    b->last = !b->last;
+    b->last = next;
     *tree = &slot->tree;
     return MNS_OK;
 }

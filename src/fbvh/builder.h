@@ -24,7 +24,8 @@ typedef struct builder_slot {
 
 struct fbvh_builder {
     builder_slot slot[2];
-    int last; /* the slot of the last build */
+    int last;              /* the slot of the last build */
+    const fbvh_tree *kept; /* builds leave its slot alone; NULL: none */
     builder_sort sort;
     work_crown crown;
     work_bench *bench; /* one a thread */

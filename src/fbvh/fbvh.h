@@ -103,10 +103,14 @@ typedef struct fbvh_builder fbvh_builder;
 mns_status fbvh_builder_create(fbvh_builder **builder, mns_error *error);
 void fbvh_builder_destroy(fbvh_builder *builder);
 
+/* Further builds leave `tree`, one of this builder's, as it is, until another is kept or NULL. */
+void fbvh_builder_keep(fbvh_builder *builder, const fbvh_tree *tree);
+
 /* Builds the tree of `field`, which is only read, and only during the call. The tree is valid until the next
- * build but one of this builder, so that one can be drawn while the next is built. options NULL: defaults.
- * The same bits for any number of threads. Errors: USAGE (options), MEMORY, UNSUPPORTED (max_block_bytes
- * cannot hold even the balls); after an error the tree of the build before is still valid. */
+ * build but one of this builder, so that one can be drawn while the next is built; where one is kept, until
+ * the next. options NULL: defaults. The same bits for any number of threads. Errors: USAGE (options), MEMORY,
+ * UNSUPPORTED (max_block_bytes cannot hold even the balls); after an error the tree of the build before, or
+ * the one that is kept, is still valid. */
 mns_status fbvh_build(fbvh_builder *builder, const mns_field *field, const fbvh_options *options,
                       const fbvh_tree **tree, mns_error *error);
 

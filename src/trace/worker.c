@@ -19,14 +19,16 @@ static void *build_ahead(void *argument)
     return NULL;
 }
 
-/* What is being built becomes what is ready. */
+/* What is being built becomes what is ready; the next build leaves what is ready alone. */
 static void wait_for_it(trace_worker *worker)
 {
-    if (!worker->running) return;
-    pthread_join(worker->thread, NULL);
-    worker->running = false;
-    worker->ready = worker->ahead;
-    worker->ahead = (worker_job){0};
+    if (worker->running) {
+        pthread_join(worker->thread, NULL);
+        worker->running = false;
+        worker->ready = worker->ahead;
+        worker->ahead = (worker_job){0};
+    }
+    if (worker->builder) fbvh_builder_keep(worker->builder, worker->ready.tree);
 }
 
 static mns_status make_builder(trace_worker *worker, mns_error *error)

@@ -33,8 +33,8 @@ typedef struct trace_worker {
  * MEMORY. */
 mns_status trace_worker_begin(trace_worker *worker, const mns_field *field, const fbvh_options *options,
                               mns_error *error);
-/* The tree of `field`: one built ahead, or built now. It is valid until two more were begun. Errors: as
- * fbvh_build. */
+/* The tree of `field`: one built ahead, or built now. It is valid until the next is begun or taken. Errors:
+ * as fbvh_build. */
 mns_status trace_worker_take(trace_worker *worker, const mns_field *field, const fbvh_options *options,
                              const fbvh_tree **tree, mns_error *error);
 void trace_worker_free(trace_worker *worker);
