@@ -3,6 +3,7 @@
 #include "support/cli.h"
 #include "support/draw_fixture.h"
 
+#include <fcntl.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -213,16 +214,91 @@ static void another_scene_has_another_truth(void **state)
     truth_destroy(truth);
 }
 
+static void hash_look(const cache_test *c, const mns_look *look, const char *driver,
+                      char hash[TRUTH_HASH_SIZE])
+{
+    truth_hash(c->field, &c->view, look, driver, hash);
+    assert_int_equal(strlen(hash), TRUTH_HASH_SIZE - 1);
+}
+
 static void the_look_counts_where_colours_are_kept(void **state)
 {
     const cache_test *c = *state;
-    char plain[TRUTH_HASH_SIZE], dull[TRUTH_HASH_SIZE], none[TRUTH_HASH_SIZE];
-    mns_look look = {0}, other = {.set = MNS_LOOK_SPECULAR, .specular = 0};
-    truth_hash(c->field, &c->view, &look, plain);
-    truth_hash(c->field, &c->view, &other, dull);
-    truth_hash(c->field, &c->view, NULL, none);
-    assert_true(strcmp(plain, dull) && strcmp(plain, none) && strcmp(dull, none));
-    assert_int_equal(strlen(plain), 32);
+    char plain[TRUTH_HASH_SIZE], none[TRUTH_HASH_SIZE], other[TRUTH_HASH_SIZE];
+    hash_look(c, &(mns_look){0}, "a driver", plain);
+    hash_look(c, NULL, NULL, none);
+    assert_string_not_equal(plain, none);
+    hash_look(c, &(mns_look){0}, "another driver", other);
+    assert_string_not_equal(plain, other);
+    hash_look(c, NULL, "a driver", other); /* which draws nothing */
+    assert_string_equal(none, other);
+}
+
+/* Every member tells one look from all others. */
+static void two_looks_have_two_truths(void **state)
+{
+    static const mns_light red = {.color = {1, 0, 0}}, strong = {.strength = 2},
+                           near = {.kind = MNS_LIGHT_POINT, .position = {0, 0, 1}},
+                           far = {.kind = MNS_LIGHT_POINT, .position = {0, 0, 2}},
+                           ball = {.kind = MNS_LIGHT_AREA, .position = {0, 0, 1}, .radius = 1},
+                           sun = {.kind = MNS_LIGHT_DIRECTIONAL, .direction = {1, 0, 0}};
+    static const mns_light two[] = {{.strength = 2}, {.strength = 3}};
+    static const mns_look looks[] = {
+        {.set = 0},
+        {.set = MNS_LOOK_SPECULAR},
+        {.preset = "water"},
+        {.preset = "glass"},
+        {.lights = &red, .light_count = 1},
+        {.lights = &strong, .light_count = 1},
+        {.lights = &near, .light_count = 1},
+        {.lights = &far, .light_count = 1},
+        {.lights = &ball, .light_count = 1},
+        {.lights = &sun, .light_count = 1},
+        {.lights = two, .light_count = 2},
+        {.effects = {.shadows = true}},
+        {.effects = {.shadow_samples = 1}},
+        {.effects = {.reflections = 1}},
+        {.effects = {.refractions = 1}},
+        {.effects = {.mirror = 0.5}},
+        {.effects = {.index = 1.5}},
+        {.effects = {.transmission = 0.5}},
+        {.effects = {.absorption[2] = 1}},
+        {.effects = {.occlusion_rays = 1}},
+        {.effects = {.occlusion_reach = 1}},
+        {.effects = {.environment = "sky"}},
+        {.effects = {.seed = 1}},
+    };
+    enum { LOOKS = sizeof looks / sizeof *looks };
+    const cache_test *c = *state;
+    char hash[LOOKS][TRUTH_HASH_SIZE];
+    for (size_t i = 0; i < LOOKS; i++) {
+        hash_look(c, &looks[i], "a driver", hash[i]);
+        for (size_t k = 0; k < i; k++)
+            if (!strcmp(hash[i], hash[k])) fail_msg("look %zu is taken for look %zu", i, k);
+    }
+}
+
+/* A map is told by its size and time, for it may be another under the same name. */
+static void a_changed_environment_has_another_truth(void **state)
+{
+    const cache_test *c = *state;
+    char path[256], before[TRUTH_HASH_SIZE], after[TRUTH_HASH_SIZE];
+    const struct timespec once[2] = {{1000, 0}, {1000, 0}}, later[2] = {{1001, 0}, {1001, 0}};
+    cli_write(&c->folder, "map.png", "one");
+    snprintf(path, sizeof path, "%s/map.png", c->folder.folder);
+    const mns_look look = {.effects = {.environment = path}};
+    assert_int_equal(utimensat(AT_FDCWD, path, once, 0), 0);
+    hash_look(c, &look, "a driver", before);
+    hash_look(c, &look, "a driver", after);
+    assert_string_equal(before, after);
+    assert_int_equal(utimensat(AT_FDCWD, path, later, 0), 0);
+    hash_look(c, &look, "a driver", after);
+    assert_string_not_equal(before, after);
+    cli_write(&c->folder, "map.png", "longer");
+    assert_int_equal(utimensat(AT_FDCWD, path, once, 0), 0);
+    hash_look(c, &look, "a driver", after);
+    assert_string_not_equal(before, after);
+    assert_int_equal(unlink(path), 0);
 }
 
 static void an_unusable_cache_is_told_and_no_failure(void **state)
@@ -262,7 +338,8 @@ int main(void)
         TEST(each_pixel_is_the_ray_through_its_centre), TEST(a_second_truth_comes_from_the_cache),
         TEST(without_the_cache_nothing_is_left),        TEST(a_damaged_file_is_thrown_away),
         TEST(a_cut_or_a_longer_file_is_thrown_away),    TEST(another_scene_has_another_truth),
-        TEST(the_look_counts_where_colours_are_kept),   TEST(an_unusable_cache_is_told_and_no_failure),
+        TEST(the_look_counts_where_colours_are_kept),   TEST(two_looks_have_two_truths),
+        TEST(a_changed_environment_has_another_truth),  TEST(an_unusable_cache_is_told_and_no_failure),
         TEST(progress_rises_to_the_last_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -137,7 +137,8 @@ mns_status truth_create(const truth_desc *desc, truth_planes **result, mns_error
     p->has_view = true;
     p->view = *desc->view;
     const mns_look *look = desc->look ? desc->look : &plain;
-    truth_hash(desc->field, desc->view, desc->renderer ? look : NULL, p->hash);
+    const char *driver = desc->renderer ? mns_renderer_name(desc->renderer) : NULL;
+    truth_hash(desc->field, desc->view, driver ? look : NULL, driver, p->hash);
     p->cached = desc->use_cache && truth_cache_read(p);
     if (!p->cached) {
         status = trace(desc, p, error);

@@ -44,9 +44,10 @@ mns_status truth_create(const truth_desc *desc, truth_planes **result, mns_error
 mns_status truth_from_image(const mns_image *image, truth_planes **result, mns_error *error);
 void truth_destroy(truth_planes *planes);
 
-/* What a truth hangs on, as 32 hexadecimal digits: balls, kernel, level, the resolved view, its size, the
- * look (where `look` is not NULL), and the reference's own text. */
-void truth_hash(const mns_field *field, const mns_view *view, const mns_look *look,
+/* What a truth hangs on, as 32 hexadecimal digits: balls, kernel, level, the resolved view, its size and the
+ * reference's own text; and where it has colours (`look` is not NULL) the look, with an environment's file,
+ * the driver that draws them (mns_renderer_name) and the text of what shades. */
+void truth_hash(const mns_field *field, const mns_view *view, const mns_look *look, const char *driver,
                 char hash[TRUTH_HASH_SIZE]);
 /* The balls, kernel and level alone: an input's name in results. */
 void truth_hash_field(const mns_field *field, char hash[TRUTH_HASH_SIZE]);

@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* Two lanes of multiply and fold over whole words: against chance, not against malice. */
 typedef struct hash_state {
@@ -76,6 +77,42 @@ static void hash_view(hash_state *h, const mns_view *view)
     hash_word(h, (uint64_t)view->height);
 }
 
+static void hash_light(hash_state *h, const mns_light *light)
+{
+    hash_word(h, light->kind);
+    hash_doubles(h, light->direction, 3);
+    hash_doubles(h, light->position, 3);
+    hash_double(h, light->radius);
+    hash_doubles(h, light->color, 3);
+    hash_double(h, light->strength);
+}
+
+/* A map goes by its name, size and time: reading it whole would take longer than drawing. */
+static void hash_environment(hash_state *h, const char *name)
+{
+    struct stat about;
+    hash_text(h, name);
+    bool is_map = name && *name && strcmp(name, "sky") != 0;
+    if (!is_map || stat(name, &about)) return;
+    hash_word(h, (uint64_t)about.st_size);
+    hash_word(h, (uint64_t)about.st_mtim.tv_sec);
+    hash_word(h, (uint64_t)about.st_mtim.tv_nsec);
+}
+
+static void hash_effects(hash_state *h, const mns_effects *e)
+{
+    hash_word(h, e->shadows);
+    hash_word(h, (uint64_t)e->shadow_samples);
+    hash_word(h, (uint64_t)e->reflections);
+    hash_word(h, (uint64_t)e->refractions);
+    hash_doubles(h, (double[3]){e->mirror, e->index, e->transmission}, 3);
+    hash_doubles(h, e->absorption, 3);
+    hash_word(h, (uint64_t)e->occlusion_rays);
+    hash_double(h, e->occlusion_reach);
+    hash_environment(h, e->environment);
+    hash_word(h, e->seed);
+}
+
 /* Member by member: what fills the gaps between them is anyone's guess. */
 static void hash_look(hash_state *h, const mns_look *look, const mns_field *field)
 {
@@ -89,6 +126,10 @@ static void hash_look(hash_state *h, const mns_look *look, const mns_field *fiel
     hash_doubles(h, (double[4]){look->ambient, look->diffuse, look->specular, look->shininess}, 4);
     hash_doubles(h, look->range, 2);
     hash_word(h, look->color_map);
+    hash_text(h, look->preset);
+    hash_word(h, look->light_count);
+    for (size_t i = 0; look->lights && i < look->light_count; i++) hash_light(h, &look->lights[i]);
+    hash_effects(h, &look->effects);
     hash_text(h, look->color_by);
     for (size_t i = 0; look->color_by && i < field->p.column_count; i++) {
         const particles_column *column = &field->p.column[i];
@@ -105,7 +146,7 @@ void truth_hash_field(const mns_field *field, char hash[TRUTH_HASH_SIZE])
     hash_end(&h, hash);
 }
 
-void truth_hash(const mns_field *field, const mns_view *view, const mns_look *look,
+void truth_hash(const mns_field *field, const mns_view *view, const mns_look *look, const char *driver,
                 char hash[TRUTH_HASH_SIZE])
 {
     hash_state h = hash_start();
@@ -113,6 +154,10 @@ void truth_hash(const mns_field *field, const mns_view *view, const mns_look *lo
     hash_field(&h, field);
     hash_view(&h, view);
     hash_word(&h, look != NULL);
-    if (look) hash_look(&h, look, field);
+    if (look) {
+        hash_text(&h, MNS_SHADE_HASH);
+        hash_text(&h, driver);
+        hash_look(&h, look, field);
+    }
     hash_end(&h, hash);
 }
