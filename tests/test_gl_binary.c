@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "gl/program.h"
@@ -104,6 +105,27 @@ static void a_program_is_taken_the_second_time(void **in)
     assert_true(make(s, s->folder, &other) && make(s, s->folder, &shader));
     assert_false(make(s, NULL, &shader));
     unlink(path);
+    assert_int_equal(count_files(s, path), 1);
+    unlink(path);
+}
+
+/* Another folder from now on: what was taken before is still told. */
+static void what_was_taken_still_counts_in_another_folder(void **in)
+{
+    state *s = *in;
+    gl_programs programs = {0};
+    mns_error error;
+    GLuint id = 0;
+    char path[400];
+    skip_without_formats(s);
+    make(s, s->folder, &shader);
+    gl_binaries_open(&s->device, &programs.binaries, s->folder);
+    if (gl_program_get(&s->device, &programs, &shader, &id, &error)) fail_msg("%s", error.text);
+    assert_int_equal(programs.binaries.taken, 1);
+    gl_binaries_open(&s->device, &programs.binaries, NULL);
+    assert_string_equal(programs.binaries.folder, "");
+    assert_int_equal(programs.binaries.taken, 1);
+    gl_programs_free(&s->device, &programs);
     assert_int_equal(count_files(s, path), 1);
     unlink(path);
 }
@@ -242,15 +264,39 @@ static void the_folder_is_bounded(void **in)
     }
 }
 
+/* Whose writer ended before it was renamed; one that may still be written stays. */
+static void orphans_are_removed(void **in)
+{
+    state *s = *in;
+    const store_part part = {"x", 1};
+    static const char *const name[] = {"old-1.part", ".new-1.part", ".old-1.part", ".old.party"};
+    char path[4][400];
+    for (int i = 0; i < 4; i++) {
+        snprintf(path[i], sizeof path[i], "%s/%s", s->folder, name[i]);
+        FILE *file = fopen(path[i], "wb");
+        assert_non_null(file);
+        fclose(file);
+        const time_t age = i == 1 ? 3000 : 4000;
+        const struct timespec then = {time(NULL) - age, 0}, times[2] = {then, then};
+        assert_int_equal(utimensat(AT_FDCWD, path[i], times, 0), 0);
+    }
+    assert_int_equal(store_write(s->folder, "a", "program", &part, 1, 1000), 0);
+    for (int i = 0; i < 4; i++) assert_int_equal(unlink(path[i]) == 0, i != 2);
+    snprintf(path[0], sizeof path[0], "%s/a.program", s->folder);
+    assert_int_equal(unlink(path[0]), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_program_is_taken_the_second_time),
+        cmocka_unit_test(what_was_taken_still_counts_in_another_folder),
         cmocka_unit_test(what_does_not_fit_is_thrown_away),
         cmocka_unit_test(what_the_driver_refuses_is_compiled),
         cmocka_unit_test(another_driver_has_programs_of_its_own),
         cmocka_unit_test(nothing_fails_where_nothing_can_be_kept),
         cmocka_unit_test(the_folder_is_bounded),
+        cmocka_unit_test(orphans_are_removed),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -9,7 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { NAME_SIZE = 200 };
+enum { NAME_SIZE = 200, ORPHAN_SECONDS = 3600 };
 
 bool store_folder(const char *kind, char folder[STORE_PATH])
 {
@@ -71,8 +71,22 @@ void store_close(FILE *file, const char *folder, const char *name, const char *e
 
 /* ---- Writing ---- */
 
-/* Removes the file of that ending that was not used for longest; false where all are within `most` bytes, or
- * cannot be seen through. */
+/* What a writer that was ended left behind: one that still writes takes seconds. */
+static bool is_orphan(const char *name, const struct stat *about)
+{
+    const char *point = strrchr(name, '.');
+    return name[0] == '.' && point && strcmp(point, ".part") == 0 && S_ISREG(about->st_mode) &&
+           about->st_mtim.tv_sec < time(NULL) - ORPHAN_SECONDS;
+}
+
+static bool has_ending(const char *name, const char *ending)
+{
+    const char *point = strrchr(name, '.');
+    return name[0] != '.' && point && strcmp(point + 1, ending) == 0;
+}
+
+/* Removes the file of that ending that was not used for longest, and all orphans; false where all files are
+ * within `most` bytes, or cannot be seen through. */
 static bool remove_oldest(const char *folder, const char *ending, uint64_t most)
 {
     char path[STORE_PATH + 300], oldest[STORE_PATH + 300] = "";
@@ -82,10 +96,10 @@ static bool remove_oldest(const char *folder, const char *ending, uint64_t most)
     if (!list) return false;
     for (struct dirent *entry; (entry = readdir(list));) {
         struct stat about;
-        const char *point = strrchr(entry->d_name, '.');
-        if (entry->d_name[0] == '.' || !point || strcmp(point + 1, ending) != 0) continue;
         snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-        if (stat(path, &about) || !S_ISREG(about.st_mode)) continue;
+        if (stat(path, &about)) continue;
+        if (is_orphan(entry->d_name, &about)) unlink(path);
+        if (!has_ending(entry->d_name, ending) || !S_ISREG(about.st_mode)) continue;
         total += (uint64_t)about.st_size;
         bool older = about.st_mtim.tv_sec < least.tv_sec ||
                      (about.st_mtim.tv_sec == least.tv_sec && about.st_mtim.tv_nsec < least.tv_nsec);

@@ -21,7 +21,7 @@ typedef struct store_part {
 
 /* Leaves the parts, one after the other, as folder/NAME.ENDING: written beside it and renamed. The folder is
  * made where it is not there. Files of that ending that were not used for longest are then removed, until all
- * take at most `most` bytes. 0, or an errno. */
+ * take at most `most` bytes; and what was begun more than an hour ago and never renamed. 0, or an errno. */
 int store_write(const char *folder, const char *name, const char *ending, const store_part *part,
                 size_t count, uint64_t most);
 

@@ -64,7 +64,7 @@ void gl_binaries_open(gl_device *device, gl_binaries *binaries, const char *fold
 {
     GLint count = 0;
     size_t length = folder ? strlen(folder) : 0;
-    *binaries = (gl_binaries){0};
+    *binaries->folder = '\0';
     device->gl.GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &count);
     if (count < 1 || count > FORMATS_MOST || length >= sizeof binaries->folder) return;
     if (length) memcpy(binaries->folder, folder, length);

@@ -17,7 +17,8 @@ typedef struct gl_binary_key {
     uint64_t lane[2];
 } gl_binary_key;
 
-/* Keeps programs in `folder`; NULL or "": nowhere, as where the driver gives none. */
+/* Keeps programs in `folder` from now on; NULL or "": nowhere, as where the driver gives none. `binaries` is
+ * zeros, or was opened before: what was taken until now still counts. */
 void gl_binaries_open(gl_device *device, gl_binaries *binaries, const char *folder);
 
 gl_binary_key gl_binary_key_begin(const gl_device *device);
