@@ -39,14 +39,20 @@ static void default_runs_are_all_but_the_truth(void **state)
     (void)state;
     run_spec *runs;
     size_t count;
-    bool seen[MNS_SOLVER_SECANT + 1] = {false};
+    bool seen[MNS_METHOD_BVH + 1][MNS_SOLVER_SECANT + 1] = {{false}};
     mns_error error;
     assert_int_equal(run_parse(NULL, &runs, &count, &error), MNS_OK);
     for (size_t i = 0; i < count; i++) {
         assert_int_not_equal(runs[i].options.method, MNS_METHOD_REFERENCE);
-        seen[runs[i].options.solver] = true;
+        seen[runs[i].options.method][runs[i].options.solver] = true;
     }
-    for (int i = 0; i <= MNS_SOLVER_SECANT; i++) assert_true(seen[i]);
+    static const mns_method methods[] = {MNS_METHOD_LIST, MNS_METHOD_TILE, MNS_METHOD_FBVH, MNS_METHOD_BVH};
+    for (size_t m = 0; m < 4; m++)
+        for (int solver = MNS_SOLVER_EXACT; solver <= MNS_SOLVER_SECANT; solver++) {
+            bool of_trees = solver == MNS_SOLVER_SECANT, is_tree = methods[m] >= MNS_METHOD_FBVH;
+            bool there = solver == MNS_SOLVER_EXACT || of_trees == is_tree;
+            assert_int_equal(seen[methods[m]][solver], there);
+        }
     free(runs);
 }
 

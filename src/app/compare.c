@@ -84,7 +84,8 @@ static const option_row ROWS[] = {
     {"output", 'o', "FOLDER", "gets results.csv, results.json, chart.svg (by gnuplot) and index.html",
      option_output},
     {"runs", 0, "METHOD:SOLVER[:KEY=VALUE]...,...",
-     "what to draw by (default: every method and solver of this build): list and tile with exact, cubic and "
+     "what to draw by (default: every method and solver of this build but for the reference, which is the "
+     "truth): list and tile with exact, cubic and "
      "cubic-monomial, fbvh and bvh with exact and secant, reference:exact. Keys: gather, slots, root-steps, "
      "shuffle, pool, aa and secant-steps, as the options of render",
      option_runs},
@@ -231,6 +232,8 @@ static bool ends_in(const char *name, const char *ending)
  * would be of no use beside the inputs). */
 static mns_status find_images(const app_options *o, bool *are_images, mns_error *error)
 {
+    static const char *const of_images[] = {"output", "tolerance-t", "tolerance-normal", "tolerance-mask",
+                                            NULL};
     const char *image = NULL; /* one that cannot be compared, where there is one */
     size_t saved = 0;
     for (size_t i = 0; i < o->input_count; i++) {
@@ -244,8 +247,10 @@ static mns_status find_images(const app_options *o, bool *are_images, mns_error 
                         "%.200s: an image: expected two of them, both .exr, and no other input", image);
     if (o->suite_case || o->quick)
         return app_fail(error, MNS_ERROR_USAGE, "--case and --quick: expected --suite stiff beside them");
-    if (*are_images && o->runs)
-        return app_fail(error, MNS_ERROR_USAGE, "--runs: expected something to draw, not two saved images");
+    const char *other = *are_images ? options_beside(o, of_images) : NULL;
+    if (other)
+        return app_fail(error, MNS_ERROR_USAGE, "--%s: expected something to draw, not two saved images",
+                        other);
     if (*are_images || !o->tolerance_set) return MNS_OK;
     return app_fail(error, MNS_ERROR_USAGE,
                     "--tolerance-t, -normal and -mask: expected two saved images beside them");

@@ -52,17 +52,33 @@ static mns_status run_suite(const app_options *o, const char *command, const mns
     return status;
 }
 
+/* The cases have fields, cameras and sizes of their own. Errors: USAGE. */
+static mns_status check_beside(const app_options *o, mns_error *error)
+{
+    static const char *const known[] = {"suite",   "case",    "quick",    "output", "runs",
+                                        "backend", "threads", "no-cache", NULL};
+    if (o->input_count)
+        return app_fail(error, MNS_ERROR_USAGE, "--suite %s: expected no input beside it, but for -o FOLDER",
+                        o->suite);
+    const char *other = options_beside(o, known);
+    if (!other) return MNS_OK;
+    return app_fail(
+        error, MNS_ERROR_USAGE,
+        "--%s: not beside --suite %s, whose cases say it themselves; expected -o, --runs, --case, "
+        "--quick, --backend, --threads or --no-cache",
+        other, o->suite);
+}
+
 mns_status compare_suite(const app_options *o, const char *command, mns_error *error)
 {
     run_spec *runs = NULL;
     mns_context *context = NULL;
     suite_options options = {
         .only = o->suite_case, .quick = o->quick, .use_cache = !o->no_cache, .seen = print_line};
-    if (o->input_count)
-        return app_fail(error, MNS_ERROR_USAGE, "--suite %s: expected no input beside it, but for -o FOLDER",
-                        o->suite);
+    mns_status status = check_beside(o, error);
+    if (status) return status;
     if (o->threads) omp_set_num_threads(o->threads);
-    mns_status status = run_parse(o->runs, &runs, &options.run_count, error);
+    status = run_parse(o->runs, &runs, &options.run_count, error);
     if (!status && o->output) status = folder_check(o->output, error);
     if (!status) status = mns_context_create(o->backend, &context, error);
     if (!status) status = mns_renderer_create(mns_context_get_proc(context), &options.renderer, error);

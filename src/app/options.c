@@ -130,6 +130,15 @@ static mns_status apply(const command_line *line, app_options *o, mns_error *err
     return status;
 }
 
+static mns_status note_given(const command_line *line, app_options *o, mns_error *error)
+{
+    o->given = calloc(line->given_count + 1, sizeof *o->given);
+    if (!o->given) return app_fail(error, MNS_ERROR_MEMORY, "out of memory reading the command line");
+    o->given_count = line->given_count;
+    for (size_t i = 0; i < line->given_count; i++) o->given[i] = line->table->rows[line->given[i].row].name;
+    return MNS_OK;
+}
+
 static bool is_scene(const char *name)
 {
     const char *ending = strrchr(name, '.');
@@ -187,6 +196,7 @@ mns_status options_read(const option_table *table, int argc, char **argv, app_op
         status = apply(&line, &scratch, error);
         if (!status) status = take_names(&line, o, error);
         if (!status) status = apply(&line, o, error);
+        if (!status) status = note_given(&line, o, error);
     }
     free(line.given);
     return status;
@@ -196,6 +206,17 @@ void options_free(app_options *o)
 {
     mns_scene_destroy(o->scene);
     free(o->names);
+    free(o->given);
+}
+
+const char *options_beside(const app_options *o, const char *const *known)
+{
+    for (size_t i = 0; i < o->given_count; i++) {
+        size_t k = 0;
+        while (known[k] && strcmp(known[k], o->given[i]) != 0) k++;
+        if (!known[k]) return o->given[i];
+    }
+    return NULL;
 }
 
 /* ---- Rows that commands share

@@ -39,6 +39,8 @@ typedef struct app_options {
     bool help;                  /* was asked for and printed: nothing more to do */
     mns_scene *scene;           /* of a .json argument */
     const char **names;
+    const char **given; /* the options that were given, "size" and so on, in their order */
+    size_t given_count;
 } app_options;
 
 /* Sets what the option means; `name` is "--size" and so on, `text` its value or NULL. */
@@ -63,6 +65,8 @@ typedef struct option_table {
  * options_free in either case. */
 mns_status options_read(const option_table *table, int argc, char **argv, app_options *o, mns_error *error);
 void options_free(app_options *o);
+/* The first option that was given and is none of the list, which NULL ends; NULL: there is none. */
+const char *options_beside(const app_options *o, const char *const *known);
 
 /* Rows that commands share. */
 option_apply option_kernel, option_iso, option_radius, option_radius_scale, option_frame;

@@ -20,8 +20,8 @@ typedef struct run_spec {
 } run_spec;
 
 /* Takes METHOD:SOLVER[:KEY=VALUE]...[,...] apart; NULL: the default runs, every method and solver of this
- * build and, of what iterates, a range of its caps. `*runs` is for free. Errors: USAGE (an unknown method,
- * solver or key, a value out of range, a run twice), MEMORY. */
+ * build but for the reference, which is the truth, and, of what iterates, a range of its caps. `*runs` is for
+ * free. Errors: USAGE (an unknown method, solver or key, a value out of range, a run twice), MEMORY. */
 mns_status run_parse(const char *text, run_spec **runs, size_t *count, mns_error *error);
 /* What may stand in --runs, "list:exact, ...; keys: gather, ...": for messages and help. */
 void run_known(char text[RUN_KNOWN_SIZE]);
