@@ -188,6 +188,22 @@ static void the_largest_allowed_are_allowed(void **state)
     }
 }
 
+/* A tile's head is a texel, too: 65,536 of them are 256 x 256 tiles, of 4 pixels a side at the least. */
+static void texels_hold_the_heads_of_all_tiles(void **state)
+{
+    (void)state;
+    static const int widths[] = {1024, 1025};
+    for (int i = 0; i < 2; i++) {
+        scene s = {"heads", .desc = {SCENE_UNIT}, .view = {.width = widths[i], .height = 1024},
+                   .options = {.method = MNS_METHOD_TILE, .max_pool_nodes = 1000}};
+        mns_field *field = scene_field(&s);
+        mns_plan *plan = scene_plan(&s, field);
+        assert_int_equal((plan->features & FEATURE_TEXELS) != 0, i == 0);
+        mns_plan_destroy(plan);
+        mns_field_destroy(field);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -198,6 +214,7 @@ int main(void)
         cmocka_unit_test(cores_are_one_ratio_or_one_a_ball),
         cmocka_unit_test(errors_are_one_line),
         cmocka_unit_test(the_largest_allowed_are_allowed),
+        cmocka_unit_test(texels_hold_the_heads_of_all_tiles),
     };
     return cmocka_run_group_tests_name("plan_limits", tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #define MNS_BASE_VEC_H
 
 #include <math.h>
+#include <stdbool.h>
 
 typedef struct vec3 {
     double x, y, z;
@@ -57,6 +58,11 @@ static inline vec3 vec3_cross(vec3 a, vec3 b)
 static inline double vec3_length(vec3 a)
 {
     return sqrt(vec3_dot(a, a));
+}
+
+static inline bool vec3_is_finite(vec3 a)
+{
+    return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
 /* a / |a|; a zero vector stays zero. */

@@ -13,11 +13,6 @@ enum { LIGHTS_MOST = 256, RAYS_MOST = 4096, REFLECTIONS_MOST = 8, REFRACTIONS_MO
 /* ---- Checks
  * ------------------------------------------------------------------------------------------------- */
 
-static bool finite3(const double v[3])
-{
-    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
-}
-
 static bool is_share(double x)
 {
     return x >= 0 && x <= 1;
@@ -28,7 +23,7 @@ static mns_status check_light(const mns_light *light, size_t i, mns_error *error
     if ((unsigned)light->kind > MNS_LIGHT_AREA)
         return status_fail(error, MNS_ERROR_USAGE,
                            "light %zu: no kind %d; take head, directional, point or area", i, light->kind);
-    if (!finite3(light->direction) || !finite3(light->position))
+    if (!vec3_is_finite(vec3_load(light->direction)) || !vec3_is_finite(vec3_load(light->position)))
         return status_fail(error, MNS_ERROR_USAGE, "light %zu: direction and position must be finite", i);
     if (light->kind == MNS_LIGHT_AREA && !(light->radius > 0 && isfinite(light->radius)))
         return status_fail(error, MNS_ERROR_USAGE,

@@ -4,18 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool finite3(const double v[3])
-{
-    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
-}
-
 static mns_status check(const mns_look *look, mns_error *error)
 {
     if (look->light != MNS_LIGHT_HEAD && look->light != MNS_LIGHT_DIRECTIONAL)
         return status_fail(error, MNS_ERROR_USAGE,
                            "look: no light of kind %d; take head or directional, or others by lights",
                            look->light);
-    if (!finite3(look->light_direction))
+    if (!vec3_is_finite(vec3_load(look->light_direction)))
         return status_fail(error, MNS_ERROR_USAGE, "look: the light's direction must be finite");
     if (look->shading != MNS_SHADING_SMOOTH && look->shading != MNS_SHADING_CEL)
         return status_fail(error, MNS_ERROR_USAGE, "look: no shading %d; take smooth or cel", look->shading);

@@ -286,6 +286,14 @@ static void plan_passes(mns_plan *plan)
         if (all[i].wanted) plan->pass[plan->pass_count++] = all[i].name;
 }
 
+/* Tiles of a frame, were they as small as any. */
+static size_t most_tiles(const view_frame *frame)
+{
+    const int last = (1 << TILE_SHIFT_LEAST) - 1;
+    return (size_t)((frame->width + last) >> TILE_SHIFT_LEAST) *
+           (size_t)((frame->height + last) >> TILE_SHIFT_LEAST);
+}
+
 static void plan_pool(mns_plan *plan, const mns_field *field)
 {
     size_t pixels = (size_t)plan->frame.width * (size_t)plan->frame.height;
@@ -299,7 +307,8 @@ static void plan_pool(mns_plan *plan, const mns_field *field)
     if (plan->pool_nodes > plan->pool_most) plan->pool_nodes = plan->pool_most;
     size_t texels = (size_t)plan->limits.max_texture_buffer;
     size_t most = tiles ? plan->pool_most * plan->ball_floats : field->p.count * plan->ball_floats * 2;
-    if (plan->pool_most <= texels && most <= texels)
+    size_t heads = tiles ? most_tiles(&plan->frame) : 0;
+    if (plan->pool_most <= texels && most <= texels && heads <= texels)
         plan->features |= FEATURE_TEXELS;
     else
         plan_leave_out(plan, "reading by texels", "this driver's buffer textures are too small");

@@ -183,7 +183,8 @@ void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[
 /* Whether the plan's frame may run that program. */
 bool plan_needs(const mns_plan *plan, plan_shader shader);
 
-enum { LIST_NODE = 16 };    /* bytes of a node of the per-pixel lists; of a tile's, a ball's record */
-enum { RESOLVE_GROUP = 8 }; /* invocations a group of the resolve pass */
+enum { LIST_NODE = 16 };       /* bytes of a node of the per-pixel lists; of a tile's, a ball's record */
+enum { TILE_SHIFT_LEAST = 2 }; /* no tile is fewer than 1 << 2 pixels wide */
+enum { RESOLVE_GROUP = 8 };    /* invocations a group of the resolve pass */
 
 #endif

@@ -188,7 +188,7 @@ static int choose_shift(const tile_bins *bins, size_t balls)
         count++;
     }
     double wide = count ? sum / (double)count : 64;
-    return wide < 12 ? 2 : wide < 64 ? 3 : wide < 256 ? 4 : 5;
+    return wide < 12 ? TILE_SHIFT_LEAST : wide < 64 ? 3 : wide < 256 ? 4 : 5;
 }
 
 static mns_status reserve(tile_bins *bins, mns_error *error)
