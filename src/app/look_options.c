@@ -286,7 +286,7 @@ mns_status option_occlusion(app_options *o, const char *name, const char *text, 
 
 mns_status option_environment(app_options *o, const char *name, const char *text, mns_error *error)
 {
-    if (!*text) return app_fail(error, MNS_ERROR_USAGE, "%s: expected sky, FILE.exr or FILE.png", name);
+    if (!*text) return app_fail(error, MNS_ERROR_USAGE, "%s: expected sky, FILE.exr, FILE.png or none", name);
     o->look.set |= MNS_LOOK_ENVIRONMENT;
     o->look.effects.environment = strcmp(text, "none") == 0 ? NULL : text;
     return MNS_OK;

@@ -1,6 +1,6 @@
-/* Many rows at once: what the stream's buffer holds of whole lines is cut into pieces, one a core, and each
- * piece goes the way of a table of its own. Values, labels' numbers and messages are those of one row after
- * another. */
+/* Many rows at once: what the stream's buffer holds of whole lines is cut into pieces, many more than
+ * cores, and each goes the way of a table of its own. Values, labels' numbers and messages are those of one
+ * row after another. */
 #ifndef MNS_LOAD_ROWS_H
 #define MNS_LOAD_ROWS_H
 
