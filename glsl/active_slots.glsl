@@ -31,7 +31,8 @@ uint stream_node;    // the node read last; its ball is not in a slot yet
 uint stream_next;    // the node after it
 uint stream_ball;
 Chord stream_chord;
-float stream_near;   // no ball from stream_node on begins before this
+float stream_near;   // no ball from stream_node on begins before this; below zero where the ray misses the ball
+float stream_radius;
 bool stream_disorder;
 
 #define EACH_ACTIVE(j) for (int j = 0; j < slot_count; j++) if (slot_a[j] <= active_from && slot_b[j] > active_from)
@@ -86,7 +87,7 @@ void slots_clear()
         slot_a[j] = 0.0;
         slot_b[j] = 0.0;
 #ifdef RADII
-        slot_shrink[j] = 0.0;
+        slot_shrink[j] = 1.0;
 #endif
 #ifdef STRENGTHS
         slot_q[j] = 0.0;
@@ -119,7 +120,10 @@ void stream_read(uint node)
 #else
     stream_chord.shrink = level.z;
 #endif
-    stream_near = ends ? FAR_AWAY : stream_distance(stream_chord.a, stream_chord.b, radius);
+    stream_radius = radius;
+    stream_near = stream_distance(stream_chord.a, stream_chord.b, radius);
+    if (stream_chord.a == stream_chord.b) stream_near = -FAR_AWAY;
+    if (ends) stream_near = FAR_AWAY;
 }
 
 // Puts the ball that was read into a slot.
@@ -138,23 +142,25 @@ void stream_take()
     slot_free = slot_count;
 }
 
+// Takes the ball that was read into a slot. False where it has ended before s, has no chord, or finds no room (slot_overflow).
+bool stream_hold(float s)
+{
+    if (!(stream_chord.b > s && stream_chord.a < stream_chord.b)) return false;
+    if (slot_free == SLOTS) {
+        // Room may have been made in a slot that was passed over.
+        for (int j = 0; j < SLOTS; j++)
+            if (slot_b[j] <= s) slot_free = j;
+        slot_overflow = slot_free == SLOTS;
+    }
+    if (!slot_overflow) stream_take();
+    return !slot_overflow;
+}
+
 // Takes in every ball that may begin before `stop`, lowering it to where one does.
 void stream_fill(float s, inout float stop)
 {
     while (stream_near <= stop && stream_near < FAR_AWAY && !slot_overflow) {
-        if (stream_chord.b > s && stream_chord.a < stream_chord.b) {
-            if (slot_free == SLOTS) {
-                // Room may have been made in a slot that was passed over.
-                for (int j = 0; j < SLOTS; j++)
-                    if (slot_b[j] <= s) slot_free = j;
-                slot_overflow = slot_free == SLOTS;
-            }
-            if (!slot_overflow) {
-                stream_take();
-                stop = min(stop, slot_next(stream_chord, s));
-            }
-        }
+        if (stream_hold(s)) stop = min(stop, slot_next(stream_chord, s));
         stream_read(stream_next);
     }
 }
-
