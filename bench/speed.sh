@@ -18,6 +18,7 @@ tables=() scenes=()
 for argument in "$@"; do
     case $argument in
     ratios | paper | large | growth) tables+=("$argument") ;;
+    auto) exec bench/auto.sh "${@:2}" ;;
     *) scenes+=("$argument") ;;
     esac
 done

@@ -283,7 +283,8 @@ MNS_API mns_status mns_look_preset(const char *name, mns_look *look, mns_error *
 MNS_API const char *mns_look_preset_name(size_t index);
 
 typedef enum mns_method {
-    MNS_METHOD_AUTO = 0,
+    MNS_METHOD_AUTO =
+        0, /* the plan picks list, tile or fbvh by the driver, the field and what is asked of it */
     MNS_METHOD_LIST,
     MNS_METHOD_REFERENCE, /* on the CPU, certified: mns_reference; its solver is always exact */
     MNS_METHOD_TILE,      /* the list's cast over lists a tile of pixels long, binned on the CPU */
@@ -305,6 +306,7 @@ typedef struct mns_options {
     int samples;  /* samples a pixel for colour; 0: 1; planes are the centre sample's whatever it is; at most
                      64 */
     bool moved;   /* every position changed since the last draw: reuse nothing */
+    int draws;    /* for AUTO: how often this field will be drawn as it is; 0: once */
     bool measure; /* fill the phases' times (each closed by glFinish) and the lengths of the lists */
     const char *tree; /* how fbvh and bvh are built: "no-fit,cost-n,..." (README); borrowed for the call */
     int secant_steps; /* most steps of the solver secant; 0: 16 */
@@ -347,6 +349,9 @@ MNS_API mns_status mns_plan_create(const mns_field *field, const mns_view *view,
                                    const mns_options *options, const mns_limits *limits, mns_plan **plan,
                                    mns_error *error);
 MNS_API void mns_plan_destroy(mns_plan *plan);
+/* The method, never AUTO; where `reason` is not NULL it becomes why it is that one, which lives as long as
+ * the plan. */
+MNS_API mns_method mns_plan_method(const mns_plan *plan, const char **reason);
 /* The feature mask: one bit a capability, one mask one shader variant. Names: mns_plan_text. */
 MNS_API uint64_t mns_plan_features(const mns_plan *plan);
 /* Passes in order ("core_depth", "gather", ...); *count of them. */

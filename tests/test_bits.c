@@ -50,13 +50,13 @@ static void expect_same_file(const cli *c, const char *a, const char *b, const c
 static void ten_runs_write_the_same_file(void **state)
 {
     cli *c = *state;
-    render(c, "", "first.exr");
+    render(c, "--method list", "first.exr");
     for (int run = 2; run <= 10; run++) {
-        render(c, "", "again.exr");
+        render(c, "--method list", "again.exr");
         expect_same_file(c, "first.exr", "again.exr", "another run");
     }
-    render(c, "", "a.png"); /* the smaller file holds no date either */
-    render(c, "", "b.png");
+    render(c, "--method list", "a.png"); /* the smaller file holds no date either */
+    render(c, "--method list", "b.png");
     size_t size;
     char *a = cli_read(c, "a.png", &size), *b = cli_read(c, "b.png", &size);
     assert_memory_equal(a, b, size);
@@ -68,12 +68,12 @@ static void any_number_of_threads_writes_the_same_file(void **state)
 {
     cli *c = *state;
     static const char *const drivers[] = {"0", "1", "2"}, *const ours[] = {"1", "2", "3"};
-    render(c, "", "first.exr");
+    render(c, "--method list", "first.exr");
     for (size_t i = 0; i < 3; i++) {
         char what[64];
         snprintf(what, sizeof what, "LP_NUM_THREADS=%s OMP_NUM_THREADS=%s", drivers[i], ours[i]);
         assert_int_equal(setenv("LP_NUM_THREADS", drivers[i], 1) | setenv("OMP_NUM_THREADS", ours[i], 1), 0);
-        render(c, "", "again.exr");
+        render(c, "--method list", "again.exr");
         expect_same_file(c, "first.exr", "again.exr", what);
     }
     unsetenv("LP_NUM_THREADS");
@@ -83,11 +83,11 @@ static void any_number_of_threads_writes_the_same_file(void **state)
 static void shuffled_lists_write_the_same_file(void **state)
 {
     cli *c = *state;
-    render(c, "", "first.exr");
-    render(c, "--shuffle 1", "again.exr");
+    render(c, "--method list", "first.exr");
+    render(c, "--method list --shuffle 1", "again.exr");
     expect_same_file(c, "first.exr", "again.exr", "--shuffle 1");
     assert_int_equal(setenv("LP_NUM_THREADS", "1", 1), 0);
-    render(c, "--shuffle 77", "again.exr");
+    render(c, "--method list --shuffle 77", "again.exr");
     expect_same_file(c, "first.exr", "again.exr", "--shuffle 77");
     unsetenv("LP_NUM_THREADS");
 }

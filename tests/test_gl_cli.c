@@ -70,7 +70,7 @@ static void expect_text(const json_t *root, const char *key, const char *expecte
 static void one_frame_prints_one_line_and_writes_its_files(void **state)
 {
     cli *c = *state;
-    cli_run(c, "render two.csv -o x.png --aov x.exr --size 40x30 --backend %s", backend());
+    cli_run(c, "render two.csv -o x.png --aov x.exr --size 40x30 --method list --backend %s", backend());
     cli_expect(c, 0);
     assert_int_equal(strncmp(c->out, "x.png: 40x30, 2 particles, list, exact, ", 40), 0);
     assert_string_equal(c->out + strlen(c->out) - 4, " ms\n");
@@ -96,11 +96,14 @@ static void statistics_hold_every_key_of_the_design(void **state)
                                                "active_overflow", "root_cap", "undecided_float"};
     static const char *const memory_key[] = {"peak_rss_bytes"};
     cli *c = *state;
-    cli_run(c, "render two.csv -o x.png --size 40x30 --stats s.json --backend %s --solver cubic", backend());
+    cli_run(c,
+            "render two.csv -o x.png --size 40x30 --method list --stats s.json --backend %s --solver cubic",
+            backend());
     cli_expect(c, 0);
     json_t *root = load(c, "s.json");
     assert_int_equal(json_integer_value(json_object_get(root, "schema")), 1);
     expect_text(root, "method", "list");
+    expect_text(root, "method_reason", "asked for");
     expect_text(root, "solver", "cubic");
     expect_text(root, "renderer", NULL);
     expect_numbers(json_object_get(root, "ms"), PHASE, sizeof PHASE / sizeof *PHASE);

@@ -106,7 +106,7 @@ static void a_pixel_whose_list_alone_passes_the_pool_is_refused(void **state)
     mns_error error = {0};
     mns_field *field = thick_cloud(MNS_KERNEL_POLY3);
     mns_image *before = draw_image(d, field, &view, NULL, NULL);
-    mns_options few = {.max_pool_nodes = 8};
+    mns_options few = {.method = MNS_METHOD_LIST, .max_pool_nodes = 8};
     assert_int_equal(mns_renderer_draw(d->renderer, field, &view, NULL, &few, d->frame, &error),
                      MNS_ERROR_UNSUPPORTED);
     assert_int_equal(error.status, MNS_ERROR_UNSUPPORTED);

@@ -116,14 +116,15 @@ static mns_stats draw_scene(draw_fixture *d, const scene *s, const mns_field *fi
 {
     mns_error error;
     mns_status status;
+    const mns_options options = draw_by_lists(&s->options);
     if (s->host) {
         host_canvas canvas = host_begin(&d->gl.gl);
         mns_target target = {.framebuffer = canvas.framebuffer, .near = 0.1, .far = 100};
-        status = mns_renderer_draw_on(d->renderer, field, &s->view, &s->look, &s->options, &target, d->frame,
-                                      &error);
+        status =
+            mns_renderer_draw_on(d->renderer, field, &s->view, &s->look, &options, &target, d->frame, &error);
         host_end(&d->gl.gl, &canvas);
     } else {
-        status = mns_renderer_draw(d->renderer, field, &s->view, &s->look, &s->options, d->frame, &error);
+        status = mns_renderer_draw(d->renderer, field, &s->view, &s->look, &options, d->frame, &error);
     }
     if (status) fail_msg("%s: %s", s->name, error.text);
     return *mns_frame_stats(d->frame);

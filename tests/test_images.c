@@ -50,7 +50,9 @@ static mns_plan *plan_of(const image_row *row, const image_scene *s)
 {
     mns_plan *plan;
     mns_error error;
-    if (mns_plan_create(s->field, &s->view, &s->scene->look, &s->options, &scene_llvmpipe, &plan, &error))
+    mns_options options = s->options;
+    if (options.method == MNS_METHOD_AUTO) options.method = MNS_METHOD_LIST; /* as the table's features are */
+    if (mns_plan_create(s->field, &s->view, &s->scene->look, &options, &scene_llvmpipe, &plan, &error))
         fail_msg("%s: %s", row->name, error.text);
     return plan;
 }

@@ -29,10 +29,11 @@ static void zeros_mean_the_defaults(void **state)
 {
     (void)state;
     scene s = {"zeros", .desc = {SCENE_UNIT}};
+    const mns_options listed = {.method = MNS_METHOD_LIST};
     mns_field *field = scene_field(&s);
     mns_plan *plan = scene_plan(&s, field), *bare = NULL;
     mns_limits none = {0};
-    assert_int_equal(mns_plan_create(field, NULL, NULL, NULL, &none, &bare, NULL), MNS_OK);
+    assert_int_equal(mns_plan_create(field, NULL, NULL, &listed, &none, &bare, NULL), MNS_OK);
     assert_string_equal(mns_plan_text(plan), mns_plan_text(bare));
     assert_true(bare->limits.max_storage_block == 1u << 24 && bare->limits.max_texture_size == 16384);
     assert_true(bare->limits.max_viewport[0] == 16384 && bare->limits.max_point_size == 1);
@@ -121,7 +122,8 @@ static void errors_are_one_line(void **state)
         const char *says;
     } cases[] = {
         {{"method", .options = {.method = (mns_method)7}}, MNS_ERROR_USAGE, "method 7"},
-        {{"solver", .options = {.solver = (mns_solver)3}}, MNS_ERROR_USAGE, "solver 3"},
+        {{"solver", .options = {.solver = (mns_solver)4}}, MNS_ERROR_USAGE, "solver 4"},
+        {{"draws", .options = {.draws = -1}}, MNS_ERROR_USAGE, "-1 draws"},
         {{"gather", .options = {.gather = (mns_gather)2}}, MNS_ERROR_USAGE, "gather 2"},
         {{"samples", .options = {.samples = 65}}, MNS_ERROR_USAGE, "65 samples"},
         {{"samples", .options = {.samples = -1}}, MNS_ERROR_USAGE, "-1 samples"},

@@ -181,7 +181,9 @@ static mns_status start_renderer(render_job *job, mns_error *error)
 static mns_status prepare(render_job *job, const render_frame *f, bool again, mns_error *error)
 {
     const mns_options *options = &job->o->draw;
-    bool moves = job->total > 1 || options->moved, trees = options->method >= MNS_METHOD_FBVH;
+    const mns_plan *last = mns_frame_plan(job->frame);
+    bool moves = job->total > 1 || options->moved;
+    bool trees = (last ? mns_plan_method(last, NULL) : options->method) >= MNS_METHOD_FBVH;
     if (!moves || !trees) return MNS_OK;
     if (again) return options->moved ? mns_renderer_prepare(job->renderer, f->field, options, error) : MNS_OK;
     long next = f->index + job->step;

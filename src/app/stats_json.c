@@ -161,6 +161,9 @@ json_t *stats_json_frame(const stats_frame *frame)
     json_t *object = json_object();
     json_object_set_new(object, "frame", json_integer(frame->index));
     json_object_set_new(object, "method", json_string(s->method));
+    const char *reason;
+    mns_plan_method(frame->plan, &reason);
+    json_object_set_new(object, "method_reason", json_string(reason));
     json_object_set_new(object, "solver", json_string(s->solver));
     json_object_set_new(object, "gather", json_string(s->gather));
     json_object_set_new(object, "renderer", json_string(frame->renderer));

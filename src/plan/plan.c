@@ -62,6 +62,8 @@ static mns_status check_options(const mns_options *options, mns_error *error)
     if (options->samples < 0 || options->samples > 64)
         return status_fail(error, MNS_ERROR_USAGE, "options: %d samples a pixel; take 1 to 64",
                            options->samples);
+    if (options->draws < 0)
+        return status_fail(error, MNS_ERROR_USAGE, "options: %d draws; take 0 or more", options->draws);
     if (options->slots < 0 || options->slots > 1024)
         return status_fail(error, MNS_ERROR_USAGE, "options: %d slots; take 1 to 1024", options->slots);
     if (options->root_steps < 0 || options->root_steps > 4096)
@@ -92,18 +94,22 @@ static int default_slots(const mns_options *options, const mns_limits *limits)
     return limits->is_software || options->method == MNS_METHOD_FBVH ? 64 : 24;
 }
 
-static void resolve_options(const mns_options *options, mns_plan *plan)
+/* Zeros become what they mean. Errors: USAGE. */
+static mns_status resolve_options(const mns_options *options, const mns_field *field, mns_plan *plan,
+                                  mns_error *error)
 {
     mns_options *o = &plan->options;
     *o = options ? *options : (mns_options){0};
-    if (o->method == MNS_METHOD_AUTO) o->method = MNS_METHOD_LIST;
+    plan_choice chosen = plan_choose(o, &plan->limits, field);
+    o->method = chosen.method;
+    plan->method_reason = chosen.reason;
+    mns_status status = check_options(o, error);
+    if (status) return status;
     if (!o->samples) o->samples = 1;
     if (!o->slots) o->slots = default_slots(o, &plan->limits);
     if (!o->root_steps) o->root_steps = 48;
     if (!o->secant_steps) o->secant_steps = 16;
-    plan->method_reason = options && options->method != MNS_METHOD_AUTO
-                              ? "asked for"
-                              : "auto: the method that draws on the GPU";
+    return MNS_OK;
 }
 
 void plan_balls(mns_plan *plan, const mns_field *field)
@@ -339,12 +345,11 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
     mns_plan *plan = calloc(1, sizeof *plan);
     if (!plan) return status_no_memory(error, "while planning a frame");
     plan->limits = resolve_limits(limits);
-    mns_status status = options ? check_options(options, error) : MNS_OK;
+    mns_status status = resolve_options(options, field, plan, error);
     if (!status) status = mns_view_resolve(view, field, &plan->view, error);
     if (status) goto fail;
     view_basis(&plan->view, &plan->frame);
     plan_enter_unit(plan, field);
-    resolve_options(options, plan);
     plan->features = (uint64_t)field->kernel | (uint64_t)plan->options.solver << 3;
     plan_facts_of(field, &plan->frame, &plan->facts);
     plan_lengths(plan, field, options, host);
@@ -383,6 +388,12 @@ void mns_plan_destroy(mns_plan *plan)
     free(plan->light);
     free(plan->environment);
     free(plan);
+}
+
+mns_method mns_plan_method(const mns_plan *plan, const char **reason)
+{
+    if (reason) *reason = plan->method_reason;
+    return plan->options.method;
 }
 
 uint64_t mns_plan_features(const mns_plan *plan)

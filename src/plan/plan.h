@@ -121,6 +121,18 @@ void plan_effects_left_out(mns_plan *plan);
 /* Whether the method can draw the effects. Errors: UNSUPPORTED. */
 mns_status plan_effects_check(const mns_plan *plan, mns_error *error);
 
+/* A method, and why it is that one: a literal. */
+typedef struct plan_choice {
+    mns_method method;
+    const char *reason;
+} plan_choice;
+
+/* The method that the options name, or that what they ask for needs; AUTO: any would do. */
+plan_choice plan_required(const mns_options *options);
+/* The method that is quickest by what is known before it is drawn. Never AUTO, never the reference by itself.
+ */
+plan_choice plan_choose(const mns_options *options, const mns_limits *limits, const mns_field *field);
+
 /* Appends to what is left out; both strings are literals. */
 void plan_leave_out(mns_plan *plan, const char *part, const char *reason);
 /* What belongs to any method: samples and looks. */

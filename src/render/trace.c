@@ -160,9 +160,10 @@ mns_status mns_renderer_prepare(mns_renderer *r, const mns_field *field, const m
                                 mns_error *error)
 {
     if (!r || !field) return status_fail(error, MNS_ERROR_USAGE, "prepare: renderer or field is NULL");
-    bool tree = options && (options->method == MNS_METHOD_FBVH || options->method == MNS_METHOD_BVH);
-    if (!tree) return MNS_OK;
+    mns_options asked = options ? *options : (mns_options){0};
+    asked.method = plan_required(&asked).method;
+    if (asked.method != MNS_METHOD_FBVH && asked.method != MNS_METHOD_BVH) return MNS_OK;
     fbvh_options how;
-    mns_status status = plan_tree_options(options, &r->device.limits, &how, error);
+    mns_status status = plan_tree_options(&asked, &r->device.limits, &how, error);
     return status ? status : trace_worker_begin(&r->worker, field, &how, error);
 }

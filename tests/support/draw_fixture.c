@@ -17,6 +17,7 @@ int draw_fixture_setup(void **state)
     gl_fixture_begin(&d->gl);
     if (mns_renderer_create(mns_context_get_proc(d->gl.context), &d->renderer, &error) != MNS_OK)
         fail_msg("%s", error.text);
+    mns_renderer_keep_programs(d->renderer, NULL); /* what is tested is compiled here and now */
     if (mns_frame_create(d->renderer, &d->frame, &error) != MNS_OK) fail_msg("%s", error.text);
     *state = d;
     return 0;
@@ -41,12 +42,20 @@ int draw_fixture_teardown(void **state)
     return 0;
 }
 
+mns_options draw_by_lists(const mns_options *options)
+{
+    mns_options listed = options ? *options : (mns_options){0};
+    if (listed.method == MNS_METHOD_AUTO) listed.method = MNS_METHOD_LIST;
+    return listed;
+}
+
 mns_image *draw_image(draw_fixture *d, const mns_field *field, const mns_view *view, const mns_look *look,
                       const mns_options *options)
 {
     mns_error error;
     mns_image *image;
-    if (mns_renderer_draw(d->renderer, field, view, look, options, d->frame, &error) != MNS_OK)
+    const mns_options listed = draw_by_lists(options);
+    if (mns_renderer_draw(d->renderer, field, view, look, &listed, d->frame, &error) != MNS_OK)
         fail_msg("%s", error.text);
     if (mns_frame_read(d->frame, &image, &error) != MNS_OK) fail_msg("%s", error.text);
     d->stats = *mns_frame_stats(d->frame);

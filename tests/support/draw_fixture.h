@@ -21,7 +21,12 @@ int draw_fixture_teardown(void **state);
 /* Fails if GL has an error pending, or the driver gave a message of medium or high severity. */
 void draw_fixture_check(draw_fixture *d);
 
-/* Draws and reads back; free by mns_image_destroy. view, look and options may be NULL. */
+/* The options (NULL: defaults), by lists where they name no method: what a test is of does not hang on what
+ * the plan would choose. */
+mns_options draw_by_lists(const mns_options *options);
+
+/* Draws and reads back; free by mns_image_destroy. view, look and options may be NULL; without a method: by
+ * lists. */
 mns_image *draw_image(draw_fixture *d, const mns_field *field, const mns_view *view, const mns_look *look,
                       const mns_options *options);
 

@@ -93,7 +93,8 @@ host_pixels *host_read(draw_fixture *d, const host *h)
 void host_draw_on(draw_fixture *d, const mns_field *field, const mns_view *view, const mns_target *target)
 {
     mns_error error;
-    if (mns_renderer_draw_on(d->renderer, field, view, NULL, NULL, target, d->frame, &error) != MNS_OK)
+    const mns_options options = draw_by_lists(NULL);
+    if (mns_renderer_draw_on(d->renderer, field, view, NULL, &options, target, d->frame, &error) != MNS_OK)
         fail_msg("%s", error.text);
     d->stats = *mns_frame_stats(d->frame);
 }

@@ -42,7 +42,10 @@ mns_plan *scene_plan(const scene *s, const mns_field *field)
 {
     mns_error error;
     mns_plan *plan = NULL;
-    if (plan_make(field, &s->view, &s->look, &s->options, s->limits, s->host, &plan, &error))
+    mns_options options = s->options;
+    if (options.method == MNS_METHOD_AUTO)
+        options.method = MNS_METHOD_LIST; /* what is chosen: test_choose.c */
+    if (plan_make(field, &s->view, &s->look, &options, s->limits, s->host, &plan, &error))
         fail_msg("%s: %s", s->name, error.text);
     return plan;
 }

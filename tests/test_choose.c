@@ -1,0 +1,136 @@
+/* Which method the plan takes where nobody names one, and what it says of it. */
+#include "support/scenes.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const mns_limits gpu = {.max_storage_block = (size_t)1 << 31,
+                               .max_texture_size = 32768,
+                               .max_texture_buffer = 1 << 27,
+                               .max_viewport = {32768, 32768},
+                               .max_point_size = 2047,
+                               .has_clip_control = true};
+
+static mns_plan *plan_of(const mns_field *field, const mns_options *options, const mns_limits *limits,
+                         bool host)
+{
+    mns_plan *plan = NULL;
+    mns_error error;
+    const mns_view view = {.width = 64, .height = 48};
+    if (plan_make(field, &view, NULL, options, limits, host, &plan, &error)) fail_msg("%s", error.text);
+    return plan;
+}
+
+static void expect_choice(const char *generator, mns_options options, const mns_limits *limits,
+                          mns_method method, const char *reason)
+{
+    const scene s = {"choice", .generator = generator, .desc = {SCENE_UNIT}};
+    const char *said;
+    mns_field *field = scene_field(&s);
+    for (int host = 0; host < 2; host++) { /* a host's framebuffer is for all of them */
+        mns_plan *plan = plan_of(field, &options, limits, host);
+        if (mns_plan_method(plan, &said) != method)
+            fail_msg("method %d, expected %d (%s)", mns_plan_method(plan, NULL), method, said);
+        assert_string_equal(said, reason);
+        assert_non_null(strstr(mns_plan_text(plan), reason));
+        mns_plan_destroy(plan);
+    }
+    mns_field_destroy(field);
+}
+
+static void the_driver_decides(void **state)
+{
+    (void)state;
+    static const char *const generators[] = {NULL, "scattered:30000", "mixed:1000"};
+    static const char software[] = "auto: a software renderer casts sooner than it rasterises";
+    for (int i = 0; i < 3; i++)
+        for (int moved = 0; moved < 2; moved++) {
+            const mns_options options = {.moved = moved};
+            expect_choice(generators[i], options, &scene_llvmpipe, MNS_METHOD_TILE, software);
+            expect_choice(generators[i], options, &gpu, MNS_METHOD_LIST, "auto: a GPU rasterises the balls");
+            expect_choice(generators[i], options, NULL, MNS_METHOD_LIST, "auto: a GPU rasterises the balls");
+        }
+}
+
+/* Lists may keep every ball twice: 16 bytes a ball with a radius each. */
+static void so_many_balls_that_blocks_are_small(void **state)
+{
+    (void)state;
+    mns_limits small = gpu;
+    small.max_storage_block = 32 * 1000;
+    expect_choice("mixed:1000", (mns_options){0}, &small, MNS_METHOD_LIST,
+                  "auto: a GPU rasterises the balls");
+    expect_choice("mixed:1001", (mns_options){0}, &small, MNS_METHOD_TILE,
+                  "auto: this driver's blocks do not hold the balls twice");
+}
+
+static void a_thick_field_that_stands_still_gets_a_tree(void **state)
+{
+    (void)state;
+    static const char tree[] = "auto: many draws of a thick field that stands still repay its tree",
+                      tile[] = "auto: a software renderer casts sooner than it rasterises";
+    const mns_options often = {.draws = 20}, seldom = {.draws = 19}, moving = {.draws = 20, .moved = true},
+                      model = {.draws = 20, .solver = MNS_SOLVER_CUBIC};
+    expect_choice("dense:300000", often, &scene_llvmpipe, MNS_METHOD_FBVH, tree);
+    expect_choice("dense:299999", often, &scene_llvmpipe, MNS_METHOD_TILE, tile);
+    expect_choice("dense:300000", seldom, &scene_llvmpipe, MNS_METHOD_TILE, tile);
+    expect_choice("dense:300000", moving, &scene_llvmpipe, MNS_METHOD_TILE, tile);
+    expect_choice("dense:300000", model, &scene_llvmpipe, MNS_METHOD_TILE, tile);
+    expect_choice("scattered:300000", often, &scene_llvmpipe, MNS_METHOD_TILE, tile);
+    expect_choice("dense:300000", often, &gpu, MNS_METHOD_LIST, "auto: a GPU rasterises the balls");
+}
+
+static void what_one_method_alone_can_do_decides_first(void **state)
+{
+    (void)state;
+    const mns_limits *const limits[] = {&scene_llvmpipe, &gpu};
+    for (int i = 0; i < 2; i++) {
+        expect_choice(NULL, (mns_options){.counters = true}, limits[i], MNS_METHOD_FBVH,
+                      "auto: trees alone count a ray's work");
+        expect_choice(NULL, (mns_options){.tree = "no-fit"}, limits[i], MNS_METHOD_FBVH,
+                      "auto: it is said how a tree is built");
+        expect_choice(NULL, (mns_options){.solver = MNS_SOLVER_SECANT}, limits[i], MNS_METHOD_FBVH,
+                      "auto: the solver secant is the trees'");
+        expect_choice(NULL, (mns_options){.gather = MNS_GATHER_PAPER}, limits[i], MNS_METHOD_LIST,
+                      "auto: lists alone are gathered as published");
+        expect_choice(NULL, (mns_options){.shuffle = 3}, limits[i], MNS_METHOD_LIST,
+                      "auto: gathered lists alone are shuffled");
+        expect_choice(NULL, (mns_options){.method = MNS_METHOD_BVH}, limits[i], MNS_METHOD_BVH, "asked for");
+    }
+    expect_choice(NULL, (mns_options){.solver = MNS_SOLVER_CUBIC}, &gpu, MNS_METHOD_LIST,
+                  "auto: a GPU rasterises the balls");
+    expect_choice(NULL, (mns_options){.solver = MNS_SOLVER_CUBIC}, &scene_llvmpipe, MNS_METHOD_TILE,
+                  "auto: a software renderer casts sooner than it rasterises");
+}
+
+static void what_no_method_can_do_together_is_refused(void **state)
+{
+    (void)state;
+    static const mns_options wrong[] = {{.counters = true, .shuffle = 1},
+                                        {.counters = true, .solver = MNS_SOLVER_CUBIC},
+                                        {.solver = MNS_SOLVER_SECANT, .gather = MNS_GATHER_PAPER}};
+    const scene s = {"wrong", .desc = {SCENE_UNIT}};
+    mns_field *field = scene_field(&s);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        mns_plan *plan = NULL;
+        mns_error error;
+        assert_int_equal(mns_plan_create(field, NULL, NULL, &wrong[i], &gpu, &plan, &error), MNS_ERROR_USAGE);
+        assert_null(plan);
+    }
+    mns_field_destroy(field);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_driver_decides),
+        cmocka_unit_test(so_many_balls_that_blocks_are_small),
+        cmocka_unit_test(a_thick_field_that_stands_still_gets_a_tree),
+        cmocka_unit_test(what_one_method_alone_can_do_decides_first),
+        cmocka_unit_test(what_no_method_can_do_together_is_refused),
+    };
+    return cmocka_run_group_tests_name("choose", tests, NULL, NULL);
+}
