@@ -152,7 +152,7 @@ static void errors_are_one_line(void **state)
          "640x480"},
         {{"huge", .view = {.width = 16385, .height = 1}}, MNS_ERROR_UNSUPPORTED, "16384x16384"},
         {{"balls", .desc = {.count = 9, .position = {.data = nine}}, .view = {.width = 64, .height = 48},
-          .limits = &tiny_blocks},
+          .options = {.method = MNS_METHOD_LIST}, .limits = &tiny_blocks},
          MNS_ERROR_UNSUPPORTED,
          "9 balls: this driver's storage blocks hold 8"},
     };

@@ -23,7 +23,7 @@ static bool floats_serve(const mns_plan *plan, const mns_field *field)
 
 void plan_lengths(mns_plan *plan, const mns_field *field, const mns_options *options, bool host)
 {
-    bool asked = options && options->method != MNS_METHOD_AUTO;
+    bool asked = options && plan_required(options).method != MNS_METHOD_AUTO;
     plan->t_unit = domain_lengths_hold(field, plan->facts.farthest) ? 1 : plan->unit;
     if (asked || host || plan->options.solver != MNS_SOLVER_EXACT || floats_serve(plan, field)) return;
     plan->options.method = MNS_METHOD_REFERENCE; /* has doubles */
