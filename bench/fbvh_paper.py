@@ -12,7 +12,7 @@ import tempfile
 from common import fail
 
 SIZE = "640x480"
-STATIONS = 4  # frames of a moving field, places of the eye around one that stands still
+STATIONS = 2  # frames of a moving field, places of the eye around one that stands still
 SCENES = ["scattered:30000", "scattered:100000", "tornado:4000", "tornado:128000", "examples/1tii.pdb", "pool:10000"]
 MOVING = ("tornado", "pool")
 PUBLISHED = {"scattered:30000": 9.4 / 7.4, "scattered:100000": 4.3 / 3.3, "tornado:4000": 11 / 4.6, "tornado:128000": 2.4 / 1.0,
@@ -36,9 +36,10 @@ def table(heads, rows):
     print(flush=True)
 
 
-def run(command):
+def run(command, most=0):
+    """What a command says; `most`: the highest exit status that is no failure."""
     done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode:
+    if done.returncode > most:
         fail(f"{' '.join(command)}: {done.stderr.strip()}")
     return done.stdout
 
@@ -130,7 +131,7 @@ def agreement(program, scene):
         names = [os.path.join(folder, method + ".exr") for method in ("list", "fbvh")]
         for method, name in zip(("list", "fbvh"), names):
             run([program, "render", scene, "--size", SIZE, "--method", method, "-o", name])
-        return re.sub(r"^\S+: ", "", run([program, "compare", *names]).strip().splitlines()[-1])
+        return re.sub(r"^\S+: ", "", run([program, "compare", *names], most=1).strip().splitlines()[-1])
 
 
 def print_compared(program):
