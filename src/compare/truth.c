@@ -84,7 +84,7 @@ static mns_status trace(const truth_desc *desc, truth_planes *p, mns_error *erro
     mns_status status = mns_reference_create(desc->field, &reference, error);
     if (status) return status;
     double start = clock_ms();
-    int done = 0;
+    int done = 0, told = 0;
 #pragma omp parallel for schedule(dynamic, 1)
     for (int y = 0; y < p->height; y++) {
         mns_error row_error;
@@ -103,8 +103,11 @@ static mns_status trace(const truth_desc *desc, truth_planes *p, mns_error *erro
         }
 #pragma omp atomic capture
         rows = ++done;
-        if (desc->progress && omp_get_thread_num() == 0) desc->progress(desc->context, rows, p->height);
+        if (desc->progress && omp_get_thread_num() == 0)
+            desc->progress(desc->context, told = rows, p->height);
     }
+    /* The other threads may have taken the last rows, or all of them. */
+    if (desc->progress && !status && told < done) desc->progress(desc->context, done, p->height);
     p->ms = clock_ms() - start;
     mns_reference_destroy(reference);
     return status;

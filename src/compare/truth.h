@@ -33,7 +33,8 @@ typedef struct truth_desc {
     const mns_look *look;   /* NULL: defaults */
     mns_renderer *renderer; /* draws rgba, by MNS_METHOD_REFERENCE; NULL: no rgba */
     bool use_cache;         /* look in $XDG_CACHE_HOME/meniscus/truth (~/.cache), and leave it there */
-    void (*progress)(void *context, int done, int rows); /* NULL, or called from one thread as rows end */
+    /* NULL, or called from one thread as rows end, and at the last. */
+    void (*progress)(void *context, int done, int rows);
     void *context;
 } truth_desc;
 
