@@ -28,50 +28,6 @@ void plan_leave_out(mns_plan *plan, const char *part, const char *reason)
         plan->left_out[plan->left_out_count++] = (mns_left_out){part, reason};
 }
 
-static mns_status check_options(const mns_options *options, mns_error *error)
-{
-    bool tree = options->method == MNS_METHOD_FBVH || options->method == MNS_METHOD_BVH;
-    if ((unsigned)options->method > MNS_METHOD_BVH)
-        return status_fail(error, MNS_ERROR_USAGE,
-                           "options: method %d is not in this build; take list, tile, fbvh, bvh or reference",
-                           options->method);
-    if (options->method == MNS_METHOD_REFERENCE && options->solver != MNS_SOLVER_EXACT)
-        return status_fail(error, MNS_ERROR_USAGE,
-                           "options: solver %d of the reference; reference has one solver: exact",
-                           options->solver);
-    if ((unsigned)options->solver > MNS_SOLVER_SECANT)
-        return status_fail(error, MNS_ERROR_USAGE, "options: no solver %d", options->solver);
-    if (options->solver != MNS_SOLVER_EXACT && tree != (options->solver == MNS_SOLVER_SECANT))
-        return status_fail(error, MNS_ERROR_USAGE, "options: solver %d of this method; take exact%s",
-                           options->solver, tree ? " or secant" : ", cubic or cubic-monomial");
-    if (options->secant_steps < 0 || options->secant_steps > 4096)
-        return status_fail(error, MNS_ERROR_USAGE, "options: %d secant steps; take 1 to 4096",
-                           options->secant_steps);
-    if (options->counters && !tree)
-        return status_fail(error, MNS_ERROR_USAGE, "options: only fbvh and bvh count a ray's work");
-    if (options->tree && *options->tree && !tree)
-        return status_fail(error, MNS_ERROR_USAGE, "options: only fbvh and bvh build a tree");
-    if (tree && (options->gather != MNS_GATHER_EARLY_Z || options->shuffle))
-        return status_fail(error, MNS_ERROR_USAGE,
-                           "options: a tree is not gathered: leave gather and shuffle, or take list");
-    if ((unsigned)options->gather > MNS_GATHER_PAPER)
-        return status_fail(error, MNS_ERROR_USAGE, "options: no gather %d", options->gather);
-    if (options->method == MNS_METHOD_TILE && (options->gather != MNS_GATHER_EARLY_Z || options->shuffle))
-        return status_fail(error, MNS_ERROR_USAGE,
-                           "options: tiles are not gathered: leave gather and shuffle, or take list");
-    if (options->samples < 0 || options->samples > 64)
-        return status_fail(error, MNS_ERROR_USAGE, "options: %d samples a pixel; take 1 to 64",
-                           options->samples);
-    if (options->draws < 0)
-        return status_fail(error, MNS_ERROR_USAGE, "options: %d draws; take 0 or more", options->draws);
-    if (options->slots < 0 || options->slots > 1024)
-        return status_fail(error, MNS_ERROR_USAGE, "options: %d slots; take 1 to 1024", options->slots);
-    if (options->root_steps < 0 || options->root_steps > 4096)
-        return status_fail(error, MNS_ERROR_USAGE, "options: %d root steps; take 1 to 4096",
-                           options->root_steps);
-    return MNS_OK;
-}
-
 /* What a caller leaves at zero is the least. */
 static mns_limits resolve_limits(const mns_limits *limits)
 {
@@ -84,32 +40,6 @@ static mns_limits resolve_limits(const mns_limits *limits)
         if (l.max_viewport[i] <= 0) l.max_viewport[i] = least_limits.max_viewport[i];
     if (!(l.max_point_size > 0)) l.max_point_size = least_limits.max_point_size;
     return l;
-}
-
-/* Balls of a ray that the fast path holds at once: those around one place, or, by a tree, in one leaf. Where
- * leaves overlap, one holds all that reach any of its own balls. */
-static int default_slots(const mns_options *options, const mns_limits *limits)
-{
-    if (options->method == MNS_METHOD_BVH) return 256;
-    return limits->is_software || options->method == MNS_METHOD_FBVH ? 64 : 24;
-}
-
-/* Zeros become what they mean. Errors: USAGE. */
-static mns_status resolve_options(const mns_options *options, const mns_field *field, mns_plan *plan,
-                                  mns_error *error)
-{
-    mns_options *o = &plan->options;
-    *o = options ? *options : (mns_options){0};
-    plan_choice chosen = plan_choose(o, &plan->limits, field);
-    o->method = chosen.method;
-    plan->method_reason = chosen.reason;
-    mns_status status = check_options(o, error);
-    if (status) return status;
-    if (!o->samples) o->samples = 1;
-    if (!o->slots) o->slots = default_slots(o, &plan->limits);
-    if (!o->root_steps) o->root_steps = 48;
-    if (!o->secant_steps) o->secant_steps = 16;
-    return MNS_OK;
 }
 
 void plan_balls(mns_plan *plan, const mns_field *field)
@@ -345,7 +275,7 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
     mns_plan *plan = calloc(1, sizeof *plan);
     if (!plan) return status_no_memory(error, "while planning a frame");
     plan->limits = resolve_limits(limits);
-    mns_status status = resolve_options(options, field, plan, error);
+    mns_status status = plan_options(options, field, plan, error);
     if (!status) status = mns_view_resolve(view, field, &plan->view, error);
     if (status) goto fail;
     view_basis(&plan->view, &plan->frame);

@@ -133,6 +133,10 @@ plan_choice plan_required(const mns_options *options);
  */
 plan_choice plan_choose(const mns_options *options, const mns_limits *limits, const mns_field *field);
 
+/* Checks the options and fills plan->options, of whose zeros none is left, and why the method is that one;
+ * needs the limits. Errors: USAGE. */
+mns_status plan_options(const mns_options *options, const mns_field *field, mns_plan *plan, mns_error *error);
+
 /* Appends to what is left out; both strings are literals. */
 void plan_leave_out(mns_plan *plan, const char *part, const char *reason);
 /* What belongs to any method: samples and looks. */
