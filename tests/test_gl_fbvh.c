@@ -54,7 +54,7 @@ static void dense_balls_are_exact(void **state)
 {
     mns_view view = draw_view((const double[3]){1, 0.9, 2.6}, (const double[3]){1, 0.25, 0.5}, 40, EXACT_WIDE,
                               EXACT_HIGH);
-    for (int kernel = MNS_KERNEL_POLY2; kernel < MNS_KERNEL_COUNT; kernel += 4) {
+    for (int kernel = MNS_KERNEL_POLY2; kernel<MNS_KERNEL_COUNT; kernel += of_variants(d, 2)> 1 ? 4 : 8) {
         mns_field *field = draw_generated("dense:700", (mns_kernel)kernel);
         expect_field(*state, "dense", field, &view, 0.25);
         mns_field_destroy(field);
@@ -260,7 +260,7 @@ static void every_way_to_build_gives_the_lists_picture(void **state)
                                        "no-tight,no-discard,no-fit,cost-n"};
     static const cloud *const clouds[] = {&cloud_plain, &cloud_radii, &cloud_signs};
     mns_view view = exact_view();
-    for (size_t c = 0; c < 3; c++) {
+    for (size_t c = 0; c < of_variants(d, 3); c++) {
         mns_field *field = cloud_field(clouds[c], MNS_KERNEL_POLY3);
         mns_image *list = draw_image(d, field, &view, NULL, NULL);
         for (size_t i = 0; i < METHODS * sizeof ways / sizeof *ways; i++) {
@@ -283,7 +283,7 @@ static void reading_by_texels_or_by_storage_blocks_gives_the_same_bits(void **st
     static const cloud *const clouds[] = {&cloud_plain, &cloud_radii, &cloud_signs};
     int texels = d->renderer->device.limits.max_texture_buffer;
     mns_view view = exact_view();
-    for (size_t i = 0; i < 3 * METHODS; i++) {
+    for (size_t i = 0; i < of_variants(d, 3) * METHODS; i++) {
         const mns_options *options = &methods[i % METHODS];
         mns_field *field = cloud_field(clouds[i / METHODS], MNS_KERNEL_POLY3);
         mns_image *by_texels = draw_image(d, field, &view, NULL, options);
@@ -328,7 +328,7 @@ static void slow_paths_give_the_same_picture(void **state)
     draw_fixture *d = *state;
     static const cloud *const clouds[] = {&cloud_plain, &cloud_signs};
     mns_view view = exact_view();
-    for (size_t i = 0; i < 2 * METHODS; i++) {
+    for (size_t i = 0; i < of_variants(d, 2) * METHODS; i++) {
         mns_options options = methods[i % METHODS];
         mns_field *field = cloud_field(clouds[i / METHODS], MNS_KERNEL_POLY3);
         mns_image *usual = draw_image(d, field, &view, NULL, &options);

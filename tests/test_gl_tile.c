@@ -132,7 +132,7 @@ static void radii_and_strengths_draw_what_the_list_draws(void **state)
     static const cloud *const clouds[] = {&cloud_radii, &gains, &cloud_signs, &thick};
     static const char *const names[] = {"radii", "strengths", "both signs", "no cores"};
     mns_view view = exact_view();
-    for (size_t i = 0; i < 4; i++) {
+    for (size_t i = 0; i < 4; i += all_of(d) ? 1 : 2) {
         mns_field *field = cloud_field(clouds[i], MNS_KERNEL_POLY3);
         compare(d, field, &view, NULL, &(mns_options){0}, names[i]);
         mns_field_destroy(field);
@@ -158,13 +158,13 @@ static void every_place_of_the_eye_draws_what_the_list_draws(void **state)
     draw_fixture *d = *state;
     mns_field *field = cloud_field(&cloud_plain, MNS_KERNEL_POLY3),
               *both = cloud_field(&cloud_signs, MNS_KERNEL_POLY3);
-    mns_view view = within(field, false);
-    compare(d, field, &view, NULL, &(mns_options){0}, "eye in a ball");
-    view = within(field, true);
+    mns_view view = within(field, true);
     compare(d, field, &view, NULL, &(mns_options){0}, "eye inside the surface");
     if (all_of(d)) {
         view = within(both, true);
         compare(d, both, &view, NULL, &(mns_options){0}, "eye inside, both signs");
+        view = within(field, false);
+        compare(d, field, &view, NULL, &(mns_options){0}, "eye in a ball");
     }
     view = draw_view((const double[3]){48, 60, 64}, (const double[3]){0.5, 0.5, 0.5}, 0.9, EXACT_WIDE,
                      EXACT_HIGH);
