@@ -54,7 +54,8 @@ static void dense_balls_are_exact(void **state)
 {
     mns_view view = draw_view((const double[3]){1, 0.9, 2.6}, (const double[3]){1, 0.25, 0.5}, 40, EXACT_WIDE,
                               EXACT_HIGH);
-    for (int kernel = MNS_KERNEL_POLY2; kernel<MNS_KERNEL_COUNT; kernel += of_variants(d, 2)> 1 ? 4 : 8) {
+    const int step = of_variants(*state, 2) > 1 ? 4 : 8;
+    for (int kernel = MNS_KERNEL_POLY2; kernel < MNS_KERNEL_COUNT; kernel += step) {
         mns_field *field = draw_generated("dense:700", (mns_kernel)kernel);
         expect_field(*state, "dense", field, &view, 0.25);
         mns_field_destroy(field);
