@@ -148,9 +148,9 @@ static bool read_atoms(load_table *t, load_stream *s, uint64_t atoms)
         lammps_guess_roles(t, line);
         if (!table_add_row(t, s, line) || !rows_add(t, s, atoms - 1, NULL, &rest)) return false;
     }
-    if (s->status || has_first + rest == atoms) return !s->status;
-    stream_fail_line(s, "the file ends after %llu atoms of %llu", (unsigned long long)(has_first + rest),
-                     (unsigned long long)atoms);
+    const unsigned long long found = has_first + rest, expected = atoms;
+    if (s->status || found == expected) return !s->status;
+    stream_fail_line(s, "the file ends after %llu atoms of %llu", found, expected);
     return false;
 }
 

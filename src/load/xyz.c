@@ -164,9 +164,9 @@ static bool read_atoms(load_table *t, load_stream *s, uint64_t count)
         if (!t->column_count && !add_plain(t, s, line)) return false;
         if (!table_add_row(t, s, line) || !rows_add(t, s, count - 1, NULL, &rest)) return false;
     }
-    if (s->status || has_first + rest == count) return !s->status;
-    stream_fail_line(s, "the file ends after %llu atoms of %llu", (unsigned long long)(has_first + rest),
-                     (unsigned long long)count);
+    const unsigned long long found = has_first + rest, expected = count;
+    if (s->status || found == expected) return !s->status;
+    stream_fail_line(s, "the file ends after %llu atoms of %llu", found, expected);
     return false;
 }
 
