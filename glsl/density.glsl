@@ -81,27 +81,28 @@ DENSITY_FN REAL density_slope_bound(int kernel, REAL w)
     return min(NUM(20.0) * w * w * w, NUM(2.125));
 }
 
-// At least |second derivative of k(|x|) along any line|, that is |k''(v)| and |k'(v)/v|, for every v. (k''(v) <= about 8, 4.8, 5.3,
-// 4.8, 5.8, 5 from above; the least values at the centre are -4, -6, -8, -44/9, -5.8, -20.)
-DENSITY_FN REAL density_curvature_bound(int kernel)
+// At least |second derivative of k(|x|) along any line|, that is |k''(v)| and |k'(v)/v|, for every v at which 1 - v^2 <= w <= 1. (k''(v)
+// <= about 8, 4.8, 5.3, 4.8, 5.8, 5 from above; the least values at the centre are -4, -6, -8, -44/9, -5.8, -20.) Towards the edge those of the
+// last two go by 1 - v <= w: k'' is -60 v (1-v) (1-2v) for perlin, 20 (1-v)^2 (4v-1) for wendland.
+DENSITY_FN REAL density_curvature_bound(int kernel, REAL w)
 {
     if (kernel == DENSITY_POLY2) return NUM(8.0);
     if (kernel == DENSITY_POLY3) return NUM(6.0);
     if (kernel == DENSITY_POLY4) return NUM(8.0);
     if (kernel == DENSITY_WYVILL) return NUM(5.0);
-    if (kernel == DENSITY_PERLIN) return NUM(5.875);
-    return NUM(20.0);
+    if (kernel == DENSITY_PERLIN) return min(NUM(60.0) * w, NUM(5.875));
+    return min(NUM(60.0) * w * w, NUM(20.0));
 }
 
-// At least the second derivative of k(|x|) along any line where it is positive: what lets a density rise.
-DENSITY_FN REAL density_rise_bound(int kernel)
+// At least the second derivative of k(|x|) along any line where it is positive, for the same v: what lets a density rise.
+DENSITY_FN REAL density_rise_bound(int kernel, REAL w)
 {
     if (kernel == DENSITY_POLY2) return NUM(8.0);
     if (kernel == DENSITY_POLY3) return NUM(4.875);
     if (kernel == DENSITY_POLY4) return NUM(5.25);
     if (kernel == DENSITY_WYVILL) return NUM(4.75);
-    if (kernel == DENSITY_PERLIN) return NUM(5.875);
-    return NUM(5.0);
+    if (kernel == DENSITY_PERLIN) return min(NUM(60.0) * w, NUM(5.875));
+    return min(NUM(60.0) * w * w, NUM(5.0));
 }
 
 // Core radius over R: the v at which k(v) = ratio (L / q of a ball); 0 where ratio >= 1, a ball that alone never reaches L.

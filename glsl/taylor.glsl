@@ -42,10 +42,14 @@ void piece_take(Chord chord, REAL s, REAL stop)
     REAL middle = clamp(NUM(0.5) * (chord.a + chord.b), s, stop);
     REAL most = clamp((middle - chord.a) * (chord.b - middle) * chord.shrink, NUM(0.0), NUM(1.0));
     taylor_peak += max(chord.strength, NUM(0.0)) * density_value(KERNEL, NUM(1.0) - most);
-    taylor_margin += q * density_slope_bound(KERNEL, most) * chord_reach(chord, stop);
+    REAL reach = chord_reach(chord, stop);
+    taylor_margin += q * density_slope_bound(KERNEL, most) * reach;
+    most = min(most + NUM(2.0) * TAU * reach, NUM(1.0)); // as far as rounding may have lowered it
+    REAL rise = q * chord.shrink * density_rise_bound(KERNEL, most);
+    REAL bend = q * chord.shrink * density_curvature_bound(KERNEL, most);
     bool adds = chord.strength > NUM(0.0);
-    taylor_rise += q * chord.shrink * (adds ? density_rise_bound(KERNEL) : density_curvature_bound(KERNEL));
-    taylor_sink += q * chord.shrink * (adds ? density_curvature_bound(KERNEL) : density_rise_bound(KERNEL));
+    taylor_rise += adds ? rise : bend;
+    taylor_sink += adds ? bend : rise;
 }
 
 bool piece_may(REAL s, REAL stop, REAL side)
@@ -97,15 +101,16 @@ int piece_solve(REAL s, REAL stop, REAL side, int steps, out REAL hit)
     int parts = 0;
     for (int step = 0; step < steps; step++) {
         hit = s;
-#ifdef PIECE_PAUSE
-        if (s > begin && PIECE_PAUSE) return PIECE_LATER; // all before s is proven
-#endif
         REAL margin = taylor_margin;
         REAL rise = side < NUM(0.0) ? taylor_rise : taylor_sink;
         REAL bend = max(taylor_rise, taylor_sink);
         Slope at = taylor_at(s, side);
         REAL next = s;
         if (at.value < NUM(-2.0) * margin) {
+#ifdef PIECE_PAUSE
+            // All before s is proven, and so is the side at s: within the margin, what begins there anew could not tell it.
+            if (s > begin && PIECE_PAUSE) return PIECE_LATER;
+#endif
             REAL lack = -margin - at.value;
             REAL ahead = end - s;
             bool clear = at.value + ahead * (at.slope + NUM(0.5) * rise * ahead) < -margin;

@@ -297,8 +297,8 @@ static void no_second_derivative_passes_its_bounds(void **state)
     (void)state;
     const double h = 1e-6, rounding = 1e-7;
     for (int kernel = MNS_KERNEL_POLY2; kernel < MNS_KERNEL_COUNT; kernel++) {
-        double bound = density_curvature_bound(kernel), rise = density_rise_bound(kernel), highest = 0;
-        assert_true(density_curvature_bound_f(kernel) == bound && density_rise_bound_f(kernel) == rise);
+        double bound = density_curvature_bound(kernel, 1), rise = density_rise_bound(kernel, 1), highest = 0;
+        assert_true(density_curvature_bound_f(kernel, 1) == bound && density_rise_bound_f(kernel, 1) == rise);
         for (int i = 1; i < 10000; i++) {
             double v = i / 10000.0, above = v + h, below = v - h;
             double along =
@@ -306,6 +306,9 @@ static void no_second_derivative_passes_its_bounds(void **state)
             double across = density_slope_over_v(kernel, v * v);
             assert_true(fabs(along) <= bound + rounding && fabs(across) <= bound + rounding);
             assert_true(along <= rise + rounding && across <= 0);
+            double w = 1 - v * v, nearer = density_curvature_bound(kernel, w); /* grows with w */
+            assert_true(fmax(fabs(along), fabs(across)) <= nearer + rounding && nearer <= bound);
+            assert_true(along <= density_rise_bound(kernel, w) + rounding);
             highest = fmax(highest, along);
         }
         assert_true(density_slope_over_v(kernel, 0) >= -bound);

@@ -33,7 +33,7 @@ static void bend_at_eye(const mns_field *field, vec3 eye, plan_facts *facts)
         vec3 d = vec3_scale(vec3_sub(eye, (vec3){x[i], y[i], z[i]}), 1 / r);
         double v = vec3_length(d);
         if (v >= 1 + facts->eye_reach / r) continue;
-        facts->eye_bend += fabs(q) * density_curvature_bound((int)field->kernel) / (r * r);
+        facts->eye_bend += fabs(q) * density_curvature_bound((int)field->kernel, 1) / (r * r);
         if (v < 1)
             gradient = vec3_along(gradient, q * density_slope_over_v((int)field->kernel, v * v) / r, d);
     }
