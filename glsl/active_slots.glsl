@@ -14,12 +14,18 @@ float slot_shrink[SLOTS];
 float slot_q[SLOTS];
 #endif
 uint slot_ball[SLOTS];
-// The first slots are visited by their numbers, which costs a wide machine one load each; a slot whose number is not known before costs
-// it a load a lane. They always hold a chord, at first one that has ended.
+// Visits every slot in use, as j. The first are visited by their numbers, which costs a wide machine one load each; a slot whose number
+// is not known before costs it a load a lane. They always hold a chord, at first one that has ended.
 #if SLOTS < 8
 #define SLOTS_FIRST SLOTS
+#define EACH_SLOT(visit) for (int j = 0; j < slot_count; j++) visit;
 #else
 #define SLOTS_FIRST 8
+#define EACH_SLOT(visit)                                   \
+    for (int j = 0; j < 2; j++) visit;                     \
+    if (slot_count > 2) for (int j = 2; j < 4; j++) visit; \
+    if (slot_count > 4) for (int j = 4; j < 8; j++) visit; \
+    for (int j = 8; j < slot_count; j++) visit;
 #endif
 
 int slot_count;      // slots in use; those whose ball has ended are free

@@ -69,10 +69,7 @@ float slot_sum(float s, float stop, out bool some)
     active_from = s;
     slot_free = slot_count;
     piece_begin();
-    for (int j = 0; j < SLOTS_FIRST / 2; j++) slot_add(j, s, stop, next, some);
-    if (slot_count > SLOTS_FIRST / 2)
-        for (int j = SLOTS_FIRST / 2; j < SLOTS_FIRST; j++) slot_add(j, s, stop, next, some);
-    for (int j = SLOTS_FIRST; j < slot_count; j++) slot_add(j, s, stop, next, some);
+    EACH_SLOT(slot_add(j, s, stop, next, some))
     return next;
 }
 

@@ -43,10 +43,7 @@ bool walk_clear(float s, float end)
     walk_rest = 0.0;
     walk_last = s;
     slot_free = slot_count;
-    for (int j = 0; j < SLOTS_FIRST / 2; j++) walk_add(j, s, end);
-    if (slot_count > SLOTS_FIRST / 2)
-        for (int j = SLOTS_FIRST / 2; j < SLOTS_FIRST; j++) walk_add(j, s, end);
-    for (int j = SLOTS_FIRST; j < slot_count; j++) walk_add(j, s, end);
+    EACH_SLOT(walk_add(j, s, end))
     walk_here *= WALK_SUM;
     walk_rest *= WALK_SUM;
     return walk_here < level.x;
@@ -65,10 +62,7 @@ void walk_around(int j, float s, inout float begin, inout float stop)
 bool walk_pieces(inout float s, out float stop, float end)
 {
     stop = FAR_AWAY;
-    for (int j = 0; j < SLOTS_FIRST / 2; j++) walk_around(j, s, walk_begin, stop);
-    if (slot_count > SLOTS_FIRST / 2)
-        for (int j = SLOTS_FIRST / 2; j < SLOTS_FIRST; j++) walk_around(j, s, walk_begin, stop);
-    for (int j = SLOTS_FIRST; j < slot_count; j++) walk_around(j, s, walk_begin, stop);
+    EACH_SLOT(walk_around(j, s, walk_begin, stop))
     s = walk_begin;
     while (s < end && stop < FAR_AWAY) {
         stream_fill(s, stop);
