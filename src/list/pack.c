@@ -1,17 +1,10 @@
 #include "list/pack.h"
 
+#include "base/rounded.h"
 #include "field/kernel.h"
-#include "shade/palette.h"
+#include "shade/ball_colors.h"
 
 #include <string.h>
-
-/* A double as the float nearest to it, forced through memory: one compiler kept the wider value in a
- * register. */
-static float rounded(double value)
-{
-    volatile float f = (float)value;
-    return f;
-}
 
 static const list_ball *ball_at(const list_order *order, list_chosen chosen, size_t i)
 {
@@ -79,15 +72,8 @@ void list_pack_cores(const list_order *order, const mns_field *field, float *out
 void list_pack_colors(const list_order *order, list_chosen chosen, const mns_field *field,
                       const mns_plan *plan, void *out)
 {
-    const particles_column *column = &field->p.column[plan->color_column];
-    bool elements = strcmp(column->name, "element") == 0;
-    double low = plan->color_range[0], span = plan->color_range[1] - low;
+    ball_colors colors = ball_colors_of(field, plan);
 #pragma omp parallel for if (chosen.count > ORDER_ALONE)
-    for (size_t i = 0; i < chosen.count; i++) {
-        double value = column->value[ball_at(order, chosen, i)->index];
-        if (!(plan->features & FEATURE_LABELS))
-            ((float *)out)[i] = span != 0 ? (float)((value - low) / span) : 0.5f;
-        else
-            ((uint32_t *)out)[i] = palette_label(column->label[(size_t)value], (size_t)value, elements);
-    }
+    for (size_t i = 0; i < chosen.count; i++)
+        ((uint32_t *)out)[i] = ball_colors_word(&colors, ball_at(order, chosen, i)->index);
 }

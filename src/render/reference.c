@@ -2,6 +2,7 @@
 #include "reference/reference.h"
 
 #include "base/memory.h"
+#include "base/rounded.h"
 #include "base/status.h"
 #include "effects/effects.h"
 #include "render/draw.h"
@@ -87,7 +88,7 @@ typedef struct row_counts {
 /* The least float that is no smaller. */
 static float rounded_up(double value)
 {
-    volatile float f = (float)value;
+    float f = rounded(value);
     return (double)f >= value ? f : nextafterf(f, INFINITY);
 }
 
@@ -95,7 +96,7 @@ static void put_pixel(draw *d, size_t at, size_t from_top, const mns_hit *hit)
 {
     draw_tracer *tracer = &d->tracer;
     float *t = tracer->t + 2 * at, *normal = tracer->normal + 4 * at;
-    volatile float high = (float)hit->t, low = hit->hit ? (float)(hit->t - (double)high) : 0;
+    float high = rounded(hit->t), low = hit->hit ? rounded(hit->t - (double)high) : 0;
     t[0] = high, t[1] = low;
     for (int a = 0; a < 3; a++) normal[a] = (float)hit->normal[a];
     normal[3] = hit->certain ? 1 : 0;

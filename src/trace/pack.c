@@ -1,7 +1,8 @@
 #include "trace/pack.h"
 
+#include "base/rounded.h"
 #include "field/kernel.h"
-#include "shade/palette.h"
+#include "shade/ball_colors.h"
 
 #include <math.h>
 #include <string.h>
@@ -86,14 +87,6 @@ void trace_pack_nodes(const fbvh_tree *tree, const trace_grid *grid, trace_pair 
 /* ---- Balls
  * -------------------------------------------------------------------------------------------------- */
 
-/* A double as the float nearest to it, forced through memory: one compiler kept the wider value in a
- * register. */
-static float rounded(double value)
-{
-    volatile float f = (float)value;
-    return f;
-}
-
 void trace_pack_balls(const fbvh_tree *tree, const mns_plan *plan, float *out)
 {
     size_t stride = plan->ball_floats;
@@ -128,15 +121,7 @@ void trace_pack_low(const uint32_t *index, size_t count, const mns_field *field,
 void trace_pack_colors(const uint32_t *index, size_t count, const mns_field *field, const mns_plan *plan,
                        void *out)
 {
-    const particles_column *column = &field->p.column[plan->color_column];
-    bool elements = strcmp(column->name, "element") == 0;
-    double low = plan->color_range[0], span = plan->color_range[1] - low;
+    ball_colors colors = ball_colors_of(field, plan);
 #pragma omp parallel for if (count > CHUNK * 8)
-    for (size_t i = 0; i < count; i++) {
-        double value = column->value[index[i]];
-        if (!(plan->features & FEATURE_LABELS))
-            ((float *)out)[i] = span != 0 ? (float)((value - low) / span) : 0.5f;
-        else
-            ((uint32_t *)out)[i] = palette_label(column->label[(size_t)value], (size_t)value, elements);
-    }
+    for (size_t i = 0; i < count; i++) ((uint32_t *)out)[i] = ball_colors_word(&colors, index[i]);
 }
