@@ -1,17 +1,7 @@
-// Planes to colour: Lambert and Blinn-Phong under a light at the eye or a directional one, or cel bands with a dark contour as in
-// the first figure of Szecsi & Illes 2012. Linear light, premultiplied by alpha, weighted as one of several samples.
+// Planes to colour, under a light at the eye or a directional one: premultiplied by alpha, weighted as one of several samples.
 #include "color.glsl"
-
-layout(std140, binding = 0) uniform Shade {
-    vec4 surface_color; // linear
-    vec4 background;    // linear, and alpha
-    vec4 light;         // towards it, unit; w: weight of this sample
-    vec4 lighting;      // ambient, diffuse, specular, shininess
-    vec4 way_corner;    // raw direction at pixel (0, 0), w: cel bands
-    vec4 way_x;         // its change a pixel
-    vec4 way_y;
-    vec4 map[10];       // colour map, sRGB
-};
+#define LIGHTING_BLOCK 0
+#include "lighting.glsl"
 
 layout(location = 0) out vec4 out_color;
 
@@ -32,14 +22,10 @@ layout(binding = 2) uniform sampler2D plane_color;
 
 vec3 albedo(ivec2 at)
 {
-#if defined(COLORS) && defined(COLOR_LABELS)
-    return texelFetch(plane_color, at, 0).rgb;
-#elif defined(COLORS)
-    float place = clamp(texelFetch(plane_color, at, 0).r, 0.0, 1.0) * 9.0;
-    int low = min(int(place), 8);
-    return color_linear(mix(map[low].rgb, map[low + 1].rgb, place - float(low)));
+#ifdef COLORS
+    return lighting_albedo(texelFetch(plane_color, at, 0));
 #else
-    return surface_color.rgb;
+    return lighting_albedo(vec4(0.0));
 #endif
 }
 
@@ -50,18 +36,9 @@ vec3 shade(vec3 normal, vec3 to_eye, vec3 color)
 #else
     vec3 to_light = to_eye;
 #endif
-    float facing = max(dot(normal, to_light), 0.0);
-    float shine = 0.0;
-#ifdef SPECULAR
-    if (facing > 0.0) shine = lighting.z * pow(max(dot(normal, normalize(to_light + to_eye)), 0.0), lighting.w);
-#endif
-#ifdef CEL
-    float bands = way_corner.w;
-    facing = min(floor(facing * bands), bands - 1.0) / max(bands - 1.0, 1.0);
-    shine = step(0.5 * lighting.z, shine) * lighting.z;
-    if (dot(normal, to_eye) < 0.22) return vec3(0.0);
-#endif
-    return color * (lighting.x + lighting.y * facing) + vec3(shine);
+    if (lighting_contour(normal, to_eye)) return vec3(0.0);
+    vec2 given = lighting_of(normal, to_eye, to_light);
+    return color * (lighting.x + lighting.y * given.x) + vec3(given.y);
 }
 
 void main()

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* As glsl/shade.frag.glsl has it. */
+/* As glsl/lighting.glsl has it. */
 typedef struct shade_block {
     float surface_color[4], background[4], light[4], lighting[4], way_corner[4], way_x[4], way_y[4];
     float map[PALETTE_ANCHORS][4];
@@ -48,9 +48,8 @@ static void fill(shade_block *block, const mns_plan *plan, const double jitter[2
             (vec3){(anchor[i] >> 16) / 255.0, (anchor[i] >> 8 & 255) / 255.0, (anchor[i] & 255) / 255.0}, 1);
 }
 
-mns_status shade_pass(gl_device *device, gl_buffer *uniforms, GLuint vertex_array, const mns_plan *plan,
-                      GLuint program, const GLuint plane[3], GLuint target, int sample,
-                      const double jitter[2], mns_error *error)
+mns_status shade_send(gl_device *device, gl_buffer *uniforms, const mns_plan *plan, const double jitter[2],
+                      mns_error *error)
 {
     const GladGLContext *gl = &device->gl;
     shade_block block;
@@ -59,6 +58,16 @@ mns_status shade_pass(gl_device *device, gl_buffer *uniforms, GLuint vertex_arra
     if (status) return status;
     gl->BindBuffer(GL_UNIFORM_BUFFER, uniforms->id);
     gl->BufferSubData(GL_UNIFORM_BUFFER, 0, sizeof block, &block);
+    return MNS_OK;
+}
+
+mns_status shade_pass(gl_device *device, gl_buffer *uniforms, GLuint vertex_array, const mns_plan *plan,
+                      GLuint program, const GLuint plane[3], GLuint target, int sample,
+                      const double jitter[2], mns_error *error)
+{
+    const GladGLContext *gl = &device->gl;
+    mns_status status = shade_send(device, uniforms, plan, jitter, error);
+    if (status) return status;
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms->id);
     for (GLuint i = 0; i < 3; i++) {
         gl->ActiveTexture(GL_TEXTURE0 + i);
