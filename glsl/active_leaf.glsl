@@ -11,6 +11,7 @@ float slot_q[SLOTS];
 uint slot_ball[SLOTS]; // with REFERENCE_SPLIT
 int slot_count = 0;
 bool slot_overflow = false;
+float slot_margin = 0.0; // what rounding may add to a sum of densities on the leaf's stretch
 float active_from = 0.0; // where the current piece begins
 
 #define EACH_ACTIVE(j) for (int j = 0; j < slot_count; j++) if (slot_a[j] <= active_from && slot_b[j] > active_from)
@@ -88,7 +89,8 @@ float slots_fill(Ray ray, Leaf leaf, out float stop)
             slot_count++;
         }
     }
-    return most + 2.0 * TAU * margin;
+    slot_margin = 2.0 * TAU * margin;
+    return most + slot_margin;
 }
 
 // The first end of a chord after `stop`.

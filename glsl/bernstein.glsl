@@ -68,6 +68,10 @@ REAL bernstein_root(REAL b[DEGREE + 1])
     return x;
 }
 
+#ifndef ROOT_MATTERS
+#define ROOT_MATTERS true // where the root lies, not only that there is one
+#endif
+
 // Where the largest coefficient stands, away from the ends: a good place to split a hump.
 REAL bernstein_hump(REAL b[DEGREE + 1])
 {
@@ -92,7 +96,7 @@ int bernstein_first(REAL b[DEGREE + 1], REAL margin, int steps, out REAL root)
     int sees = bernstein_sees(b, margin);
     if (sees == SEES_NONE) return PIECE_NONE;
     if (sees == SEES_ONE) {
-        root = bernstein_root(b);
+        if (ROOT_MATTERS) root = bernstein_root(b);
         return PIECE_HIT;
     }
     REAL scale = abs(b[0]);
@@ -106,7 +110,7 @@ int bernstein_first(REAL b[DEGREE + 1], REAL margin, int steps, out REAL root)
         bernstein_split(right, width, left);
         sees = bernstein_sees(left, margin);
         if (sees == SEES_ONE) {
-            root = low + (NUM(1.0) - low) * width * bernstein_root(left);
+            if (ROOT_MATTERS) root = low + (NUM(1.0) - low) * width * bernstein_root(left);
             return PIECE_HIT;
         }
         if (sees == SEES_NONE) {

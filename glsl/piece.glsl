@@ -108,13 +108,37 @@ bool piece_may(REAL s, REAL stop, REAL side)
 {
     piece_margin *= TAU;
     piece_parts(piece_b);
-#if defined(EYE_INSIDE) || defined(EYE_ON)
+#if defined(EYE_INSIDE) || defined(EYE_ON) || defined(BOTH_SIDES)
     for (int i = 0; i <= DEGREE; i++) piece_b[i] = (level.x - piece_b[i]) * side;
 #else
     for (int i = 0; i <= DEGREE; i++) piece_b[i] -= level.x;
 #endif
     return bernstein_sees(piece_b, piece_margin) != SEES_NONE;
 }
+
+#ifdef PATHS
+// Of a ray that leaves the surface at s, on a piece that piece_may did not refuse: up to where the field surely is on the ray's side,
+// but for the start itself; s where rounding could decide. b[0] is zero, to rounding, and the first slope says that it falls; half of
+// that over a bound on the second derivative is a way on which it does not turn.
+REAL piece_leave(REAL s, REAL stop, REAL side)
+{
+    REAL doubt = piece_margin + abs(piece_b[0]);
+    REAL most = piece_b[1];
+    REAL bend = NUM(0.0);
+    for (int i = 2; i <= DEGREE; i++) {
+        most = max(most, piece_b[i]);
+        bend = max(bend, abs(piece_b[i] - NUM(2.0) * piece_b[i - 1] + piece_b[i - 2]));
+    }
+    if (doubt > LEAVE_DOUBT * piece_margin) return s; // the start is not where it should be
+    if (most < -doubt) return stop;
+    bend *= NUM(DEGREE * (DEGREE - 1));
+    REAL slope = NUM(DEGREE) * (piece_b[1] - piece_b[0]);
+    if (!(slope < NUM(0.0))) return s;
+    REAL x = NUM(-0.5) * slope / max(bend, NUM(-0.5) * slope);
+    REAL value = piece_b[0] + x * (slope + NUM(0.5) * bend * x);
+    return value < NUM(-2.0) * doubt ? s + x * (stop - s) : s;
+}
+#endif
 
 // The first sign change of the field on a piece that piece_may did not refuse.
 int piece_solve(REAL s, REAL stop, REAL side, int steps, out REAL hit)

@@ -90,6 +90,20 @@ bool taylor_climbs(REAL s, REAL end, Slope from, REAL side, out REAL hit)
     return false;
 }
 
+#ifdef PATHS
+// As of polynomials (piece.glsl).
+REAL piece_leave(REAL s, REAL stop, REAL side)
+{
+    Slope at = taylor_at(s, side);
+    REAL doubt = taylor_margin + abs(at.value);
+    if (doubt > LEAVE_DOUBT * taylor_margin || !(at.slope < NUM(0.0))) return s;
+    REAL bend = max(taylor_rise, taylor_sink);
+    REAL h = min(NUM(-0.5) * at.slope / bend, stop - s);
+    REAL value = at.value + h * (at.slope + NUM(0.5) * bend * h);
+    return value < NUM(-3.0) * doubt ? s + h : s;
+}
+#endif
+
 const int TAYLOR_PARTS = 8;
 
 // What rounding may do goes by the kernels' slopes, and towards the end of a chord these are far less than anywhere on the piece.

@@ -3,7 +3,7 @@
 // In a fitted tree leaves share at most faces, so the first hit met is the hit. In an overlapping tree (OVERLAPS) a leaf knows the
 // field only where one of its own balls' spheres covers the ray, and the walk goes on where leaves may begin before the best hit.
 
-#if defined(EYE_INSIDE) || defined(EYE_ON)
+#if defined(EYE_INSIDE) || defined(EYE_ON) || defined(BOTH_SIDES)
 #define MAY_BE_INSIDE
 #endif
 
@@ -20,6 +20,9 @@ float cast_side = -1.0; // -1 outside, 1 inside
 float cast_s = 0.0;     // the current piece
 float cast_stop = 0.0;
 float cast_next = 0.0;
+#ifdef PATHS
+float cast_rest = 0.0;  // the most that f can be on what of the leaf lies beyond the current piece
+#endif
 float cast_cover = 0.0; // up to here the leaves met have covered the ray
 #ifdef OVERLAPS
 float cast_past = 0.0;  // here the ray has crossed the surface for certain: the hit lies before
@@ -73,11 +76,19 @@ bool cast_sum()
 {
     bool known = false;
     float next = FAR_AWAY;
+#ifdef PATHS
+    cast_rest = slot_margin;
+#endif
     active_from = cast_s;
     piece_begin();
     for (int j = 0; j < slot_count; j++) {
         Chord chord = active_chord(j);
         next = min(next, slot_next(chord, cast_stop));
+#ifdef PATHS
+        float near = clamp(0.5 * (chord.a + chord.b), cast_stop, cast_leaf.end);
+        float most = clamp((near - chord.a) * (chord.b - near) * chord.shrink, 0.0, 1.0);
+        cast_rest += max(chord.strength, 0.0) * density_value(KERNEL, 1.0 - most);
+#endif
         if (chord.a <= cast_s && chord.b > cast_s) {
             piece_take(chord, cast_s, cast_stop);
 #ifdef OVERLAPS
@@ -98,9 +109,20 @@ bool cast_find_piece()
     while (cast_s < cast_leaf.end && cast_held && !slot_overflow && cast_work < WALK_BUDGET) {
         bool known = cast_sum();
         may = piece_may(cast_s, cast_stop, cast_side) && known;
+        float next = cast_stop;
+#ifdef PATHS
+        if (may && cast_s == cast_begin) { // on the surface: the search begins where it is left
+            next = piece_leave(cast_s, cast_stop, cast_side);
+            may = next == cast_s;
+        }
+#endif
         if (may) break;
-        cast_s = cast_stop;
-        cast_stop = min(cast_next, cast_leaf.end);
+        cast_s = next;
+#ifdef PATHS
+        // A ray that leaves the surface is in dense parts first, and soon out of them.
+        if (next == cast_stop && cast_side < 0.0 && cast_rest < level.x) cast_s = cast_stop = cast_leaf.end;
+#endif
+        if (next == cast_stop) cast_stop = min(cast_next, cast_leaf.end);
         cast_work += slot_count + 2;
         COUNT(w, 1);
     }
@@ -126,6 +148,10 @@ bool cast_crossed()
 
 int cast_solve(out float hit)
 {
+#ifdef PATHS
+    hit = cast_s;
+    if (cast_s == cast_begin) return PIECE_OPEN; // the surface could not be left
+#endif
     int found = piece_solve(cast_s, cast_stop, cast_side, ROOT_STEPS, hit);
 #ifdef OVERLAPS
     if (found == PIECE_OPEN && cast_crossed()) {

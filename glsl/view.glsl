@@ -31,7 +31,9 @@ struct Ray {
     REAL3 way; // unit
 };
 
-#ifdef FAR
+#ifdef PATHS
+REAL view_reach = NUM(0.0); // distance of the ray's start from o
+#elif defined(FAR)
 REAL view_reach;   // distance of the ray's start from o
 REAL view_excess;  // way from the eye to the ray's start, less the depth of the plane where rays begin
 #elif defined(TREE_DEPTH) && defined(MNS_DOUBLE)

@@ -460,6 +460,7 @@ typedef enum mns_phase { /* of mns_stats.ms; the total is apart */
                          MNS_PHASE_CAST,
                          MNS_PHASE_NORMAL,
                          MNS_PHASE_TRACE,
+                         MNS_PHASE_EFFECTS,
                          MNS_PHASE_SHADE,
                          MNS_PHASE_READBACK,
                          MNS_PHASE_COUNT

@@ -80,7 +80,7 @@ static void each_scene_has_the_features_it_is_there_for(void **state)
 #define OF_THE_REFERENCE                                                                                     \
     (FEATURE_LIT | FEATURE_LIGHTS | FEATURE_POINT_LIGHTS | FEATURE_SHADOWS | FEATURE_SOFT_SHADOWS |          \
      FEATURE_MIRROR | FEATURE_FRESNEL | FEATURE_REFRACTION | FEATURE_ABSORPTION | FEATURE_OCCLUSION |        \
-     FEATURE_ENVIRONMENT | FEATURE_SKY | FEATURE_REFERENCE)
+     FEATURE_ENVIRONMENT | FEATURE_SKY | FEATURE_RAYS | FEATURE_REFERENCE)
 /* All that a scene can ask for; the rest are options for hosts, tests and measurements. */
 #define OF_OPTIONS                                                                                           \
     (FEATURE_HOST | FEATURE_PAPER | FEATURE_SHUFFLE | FEATURE_COUNTERS | FEATURE_SOLVER | FEATURE_KERNEL)

@@ -33,6 +33,7 @@
 #define TRUE_METHOD  .options = {.method = MNS_METHOD_REFERENCE}
 #define LIT_PASSES   "trace effects shade"
 #define LIT          (POLY3 | FEATURE_REFERENCE | FEATURE_LIT)
+#define LIT_BY_RAYS  (FEATURE_LIT | FEATURE_RAYS)
 #define FROM_A_SIDE  .light = MNS_LIGHT_DIRECTIONAL
 
 static const mns_light point_light = {.kind = MNS_LIGHT_POINT, .position = {1, 2, 3}},
@@ -246,6 +247,30 @@ static const scene scenes[] = {
      .features = LIT | SPECULAR | FEATURE_DIRECTIONAL | FEATURE_MIRROR | FEATURE_FRESNEL |
                  FEATURE_REFRACTION | FEATURE_SKY,
      .passes = LIT_PASSES, .left_out = "absorption: its strength is 0"},
+    {"shadows, the first hits by lists", .desc = {SCENE_UNIT}, .limits = &scene_llvmpipe,
+     .look = {FROM_A_SIDE, .effects = {.shadows = true}},
+     .features = POLY3 | CORE | SOFTWARE | QUADS | FEATURE_DIRECTIONAL | FEATURE_SHADOWS | LIT_BY_RAYS,
+     .passes = "sort build upload core_depth gather cast resolve effects shade",
+     .left_out = "mirroring: nothing is mirrored"},
+    {"occlusion, the first hits by tiles", .desc = {SCENE_UNIT}, TILE_METHOD,
+     .look = {.effects = {.occlusion_rays = 8}},
+     .features = POLY3 | CORE | TILES | FEATURE_OCCLUSION | LIT_BY_RAYS,
+     .passes = "sort bin build upload cast resolve effects shade"},
+    {"mirrors, all by a tree", .desc = {SCENE_UNIT}, .limits = &scene_llvmpipe,
+     .options = {.method = MNS_METHOD_FBVH}, .look = {.effects = {.reflections = 2}},
+     .features = POLY3 | SPECULAR | FEATURE_TEXELS | FEATURE_TREE | FEATURE_MIRROR | LIT_BY_RAYS,
+     .passes = "build upload trace resolve effects shade"},
+    {"a mirror of the sky alone: no ray, and no tree", .desc = {SCENE_UNIT},
+     .look = {.set = MNS_LOOK_MIRROR, .effects = {.mirror = 0.5, .environment = "sky"}},
+     .features = POLY3 | CORE | LEAST | FEATURE_MIRROR | FEATURE_SKY | FEATURE_LIT,
+     .passes = "sort upload core_depth gather cast resolve effects shade",
+     .left_out = "FBVH: no secondary rays are asked for"},
+    {"two lights, by a tree", .desc = {SCENE_UNIT}, .options = {.method = MNS_METHOD_BVH},
+     .look = {.lights = two_lights, .light_count = 2},
+     .features = POLY3 | SPECULAR | FEATURE_TEXELS | FEATURE_TREE | FEATURE_OVERLAPS | FEATURE_LIGHTS |
+                 FEATURE_DIRECTIONAL | FEATURE_LIT,
+     .passes = "build upload trace resolve effects shade",
+     .left_out = "rays beyond the first: no secondary rays are asked for"},
     {"a preset, and by hand what it would change", .desc = {SCENE_UNIT},
      .look = {.preset = "glass",
               .set = MNS_LOOK_LIGHT | MNS_LOOK_REFLECTIONS | MNS_LOOK_REFRACTIONS | MNS_LOOK_INDEX |
@@ -369,7 +394,7 @@ static void what_is_not_there_is_left_out(void **state)
         assert_true(is_left_out(plan, "certification") == !!(plan->features & FEATURE_SOLVER));
         assert_int_equal(is_left_out(plan, "billboards"), tiles);
         assert_int_equal(is_left_out(plan, "core depth as a pass"), tiles);
-        assert_true(is_left_out(plan, "FBVH") == !(plan->features & FEATURE_TREE));
+        assert_true(is_left_out(plan, "FBVH") == !(plan->features & (FEATURE_TREE | FEATURE_RAYS)));
         mns_plan_destroy(plan);
         mns_field_destroy(field);
     }
@@ -443,38 +468,6 @@ static void tiles_are_neither_gathered_nor_shuffled(void **state)
         assert_null(plan);
         if (i < 2) assert_non_null(strstr(error.text, "tiles are not gathered"));
     }
-    mns_field_destroy(field);
-}
-
-static void a_method_says_which_effect_it_cannot_draw(void **state)
-{
-    (void)state;
-    static const struct {
-        mns_look look;
-        const char *word;
-    } cases[] = {
-        {{FROM_A_SIDE, .effects = {.shadows = true, .reflections = 1}}, "look: shadows: so far"},
-        {{.effects = {.reflections = 1}}, "look: mirroring"},
-        {{.effects = {.refractions = 1}}, "look: refraction"},
-        {{.effects = {.occlusion_rays = 1}}, "look: occlusion"},
-        {{.effects = {.environment = "sky"}}, "look: an environment"},
-        {{.lights = &point_light, .light_count = 1}, "look: lights"},
-    };
-    const mns_method methods[] = {MNS_METHOD_AUTO, MNS_METHOD_LIST, MNS_METHOD_TILE, MNS_METHOD_FBVH,
-                                  MNS_METHOD_BVH};
-    scene s = {"refused", .desc = {SCENE_UNIT}};
-    mns_field *field = scene_field(&s);
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
-            mns_plan *plan = NULL;
-            mns_error error;
-            const mns_options options = {.method = methods[k]};
-            assert_int_equal(mns_plan_create(field, NULL, &cases[i].look, &options, NULL, &plan, &error),
-                             MNS_ERROR_UNSUPPORTED);
-            assert_null(plan);
-            assert_non_null(strstr(error.text, cases[i].word));
-            assert_non_null(strstr(error.text, "take the method reference"));
-        }
     mns_field_destroy(field);
 }
 
@@ -564,7 +557,6 @@ int main(void)
         cmocka_unit_test(the_text_names_the_features),
         cmocka_unit_test(the_text_names_the_method_tile),
         cmocka_unit_test(tiles_are_neither_gathered_nor_shuffled),
-        cmocka_unit_test(a_method_says_which_effect_it_cannot_draw),
         cmocka_unit_test(wrong_effects_are_refused),
         cmocka_unit_test(the_text_tells_the_effects),
         cmocka_unit_test(the_same_inputs_give_the_same_plan),

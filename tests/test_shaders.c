@@ -28,6 +28,10 @@ static const char *const shader_names[SHADER_COUNT] = {
     [SHADER_TREE] = "tree",
     [SHADER_TREE_WALK] = "tree-walk",
     [SHADER_TREE_RESOLVE] = "tree-resolve",
+    [SHADER_EFFECTS_LIST] = "effects-list",
+    [SHADER_EFFECTS_BEGIN] = "effects-begin",
+    [SHADER_EFFECTS] = "effects-rays",
+    [SHADER_EFFECTS_RESOLVE] = "effects-resolve",
     [SHADER_SHADE] = "shade",
     [SHADER_HOST_DEPTH] = "host-depth",
     [SHADER_HOST_DRAW] = "host-draw",
@@ -123,12 +127,21 @@ static size_t new_triples(triples *t, uint64_t reads, uint64_t features, bool no
     return fresh;
 }
 
+/* The next mask, of what the shader reads: of many features not every one, but some by chance. */
+static uint64_t next_mask(uint64_t reads, uint64_t subset, uint64_t *chance)
+{
+    if (__builtin_popcountll(reads) < 20) return (subset - reads) & reads;
+    *chance = *chance * 6364136223846793005u + 1442695040888963407u; /* Knuth's */
+    uint64_t mask = *chance >> 20 & reads;
+    return *chance >> 48 == 0 ? 0 : mask;
+}
+
 /* Small shaders in every variant. Of those that walk a ray, which have thousands (some 20 s of compiling),
  * enough that any three settings that can go together are together in one: of the masks those first that
  * bring most new triples. */
 static void write_all(texts *t, plan_shader shader)
 {
-    uint64_t reads = variant_reads(shader);
+    uint64_t reads = variant_reads(shader), chance = 1;
     bool all = __builtin_popcountll(reads) < 8;
     triples *done = calloc(1, sizeof *done);
     assert_non_null(done);
@@ -141,7 +154,7 @@ static void write_all(texts *t, plan_shader shader)
                 new_triples(done, reads, plan.features, true);
                 write_variant(t, shader, &plan);
             }
-            subset = (subset - reads) & reads; /* the next one */
+            subset = next_mask(reads, subset, &chance);
         } while (subset);
         if (!least) break;
     }

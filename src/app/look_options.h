@@ -37,7 +37,7 @@ option_apply option_shading, option_cel_bands, option_color, option_background, 
     }
 
 #define OPTIONS_OF_EFFECTS                                                                                   \
-    {NULL, 0, NULL, "Effects (so far by --method reference alone):", NULL},                                  \
+    {NULL, 0, NULL, "Effects (of every method):", NULL},                                                     \
         {"shadows", 0, "?N", "shadows of all lights but head; N rays a pixel and area light (default 16)",   \
          option_shadows},                                                                                    \
         {"reflections", 0, "N", "mirror levels, 0 (the default) to 8", option_reflections},                  \

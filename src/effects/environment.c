@@ -14,14 +14,20 @@ static vec3 turned(vec3 up, vec3 v)
     return vec3_along(vec3_add(v, across), 1 / (1 + up.y), vec3_cross(axis, across));
 }
 
-mns_status environment_begin(environment *e, const mns_plan *plan, mns_error *error)
+environment environment_of(const mns_plan *plan)
 {
     vec3 up = vec3_unit(vec3_load(plan->view.up));
-    *e = (environment){.sky = plan->features & FEATURE_SKY,
-                       .right = turned(up, (vec3){1, 0, 0}),
-                       .up = up,
-                       .back = turned(up, (vec3){0, 0, 1})};
-    for (int c = 0; c < 3; c++) e->color[c] = color_linear(plan->look.background[c]);
+    environment e = {.sky = plan->features & FEATURE_SKY,
+                     .right = turned(up, (vec3){1, 0, 0}),
+                     .up = up,
+                     .back = turned(up, (vec3){0, 0, 1})};
+    for (int c = 0; c < 3; c++) e.color[c] = color_linear(plan->look.background[c]);
+    return e;
+}
+
+mns_status environment_begin(environment *e, const mns_plan *plan, mns_error *error)
+{
+    *e = environment_of(plan);
     return plan->features & FEATURE_ENVIRONMENT ? image_picture_read(plan->environment, &e->map, error)
                                                 : MNS_OK;
 }

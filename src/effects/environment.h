@@ -13,6 +13,8 @@ typedef struct environment {
     vec3 right, up, back; /* the environment's x, y and z in the scene */
 } environment;
 
+/* All of it but the map. */
+environment environment_of(const mns_plan *plan);
 /* Reads the plan's map, if it has one. Errors: as image_picture_read. */
 mns_status environment_begin(environment *e, const mns_plan *plan, mns_error *error);
 void environment_end(environment *e);

@@ -5,10 +5,10 @@
 #include "gl/device.h"
 
 enum {
-    STATE_TEXTURES = 6,
+    STATE_TEXTURES = 10,
     STATE_IMAGES = 5,
-    STATE_STORAGE = 7,
-    STATE_UNIFORMS = 2,
+    STATE_STORAGE = 8,
+    STATE_UNIFORMS = 3,
     STATE_SWITCHES = 24,
     STATE_PACK = 5
 };

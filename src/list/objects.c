@@ -130,7 +130,7 @@ mns_status list_passes_compile(gl_device *device, gl_programs *programs, const m
         program[i] = 0;
         /* What only some pixels or balls may need is compiled when they do. */
         if (!plan_needs(plan, i) || i == SHADER_WALK || i == SHADER_RESOLVE || i == SHADER_ORDER ||
-            i == SHADER_TREE_WALK || i == SHADER_TREE_RESOLVE)
+            i == SHADER_TREE_WALK || i == SHADER_TREE_RESOLVE || i == SHADER_EFFECTS_RESOLVE)
             continue;
         plan_shader_files(i, &shader.vertex, &shader.fragment, &shader.compute);
         plan_shader_defines(plan, i, defines);

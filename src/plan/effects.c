@@ -280,25 +280,3 @@ void plan_effects_left_out(mns_plan *plan)
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         if (!(f & parts[i].feature)) plan_leave_out(plan, parts[i].part, parts[i].reason);
 }
-
-mns_status plan_effects_check(const mns_plan *plan, mns_error *error)
-{
-    static const struct {
-        uint64_t feature;
-        const char *name;
-    } names[] = {
-        {FEATURE_SHADOWS, "shadows"},
-        {FEATURE_OCCLUSION, "occlusion"},
-        {FEATURE_REFRACTION, "refraction"},
-        {FEATURE_MIRROR, "mirroring"},
-        {FEATURE_ENVIRONMENT | FEATURE_SKY, "an environment"},
-        {FEATURE_LIGHTS | FEATURE_POINT_LIGHTS, "lights with places, colours or strengths, or several"},
-    };
-    if (plan->features & FEATURE_REFERENCE || plan->options.method == MNS_METHOD_REFERENCE) return MNS_OK;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (plan->features & names[i].feature)
-            return status_fail(error, MNS_ERROR_UNSUPPORTED,
-                               "look: %s: so far only the reference draws this; take the method reference",
-                               names[i].name);
-    return MNS_OK;
-}

@@ -13,7 +13,7 @@ static const char *const feature_names[FEATURE_COUNT] = {
     [29] = "overlaps",   [30] = "counters",     [31] = "eye_on",     [32] = "lit",
     [33] = "lights",     [34] = "point_lights", [35] = "shadows",    [36] = "soft_shadows",
     [37] = "mirror",     [38] = "fresnel",      [39] = "refraction", [40] = "absorption",
-    [41] = "occlusion",  [42] = "environment",  [43] = "sky",
+    [41] = "occlusion",  [42] = "environment",  [43] = "sky",        [44] = "rays",
 };
 
 static const char *const solver_names[] = {"exact", "cubic", "cubic-monomial", "secant"};

@@ -52,8 +52,7 @@ void plan_balls(mns_plan *plan, const mns_field *field)
         plan->features |= FEATURE_STRENGTHS;
     else
         plan_leave_out(plan, "a strength a ball", "all are 1");
-    plan->ball_floats =
-        3 + (plan->features & FEATURE_RADII ? 1 : 0) + (plan->features & FEATURE_STRENGTHS ? 1 : 0);
+    plan->ball_floats = plan_tree_floats(plan);
 }
 
 void plan_eye(mns_plan *plan, const mns_field *field)
@@ -82,9 +81,7 @@ void plan_eye(mns_plan *plan, const mns_field *field)
         plan_leave_out(plan, "rays that begin at the box", "the eye is within 30 radii of the field's box");
     }
     if (plan->features & FEATURE_TREE) { /* stands still, so that the tree does */
-        for (int axis = 0; axis < 3; axis++)
-            plan->origin[axis] =
-                field->p.count ? field->lo[axis] + 0.5 * (field->hi[axis] - field->lo[axis]) : 0;
+        plan_tree_place(field, plan->origin);
         origin = vec3_load(plan->origin);
         plan->reach = vec3_length(vec3_sub(frame->eye, origin));
         if (plan->features & FEATURE_FAR) plan->reach = 0;
@@ -194,7 +191,6 @@ static void plan_rest(mns_plan *plan, size_t balls, bool host)
     if (plan->limits.has_clip_control && !(plan->features & FEATURE_TILES))
         plan->features |= FEATURE_CLIP_ZERO;
     plan_look_left_out(plan);
-    plan_leave_out(plan, "FBVH", "no secondary rays are asked for");
     plan_leave_out(plan, "balls outside the view", "they cannot be seen");
 }
 
@@ -208,6 +204,7 @@ static void plan_passes(mns_plan *plan)
     } all[] = {
         {"sort", true},
         {"bin", tiles},
+        {"build", f & FEATURE_RAYS},
         {"upload", true},
         {"host_depth", f & FEATURE_HOST && !tiles},
         {"core_depth", f & FEATURE_CORE && !tiles},
@@ -215,6 +212,7 @@ static void plan_passes(mns_plan *plan)
         {"shuffle", f & FEATURE_SHUFFLE},
         {"cast", true},
         {"resolve", true},
+        {"effects", f & FEATURE_LIT},
         {"shade", true},
         {"host_draw", f & FEATURE_HOST},
     };
@@ -262,9 +260,10 @@ static mns_status plan_list(mns_plan *plan, const mns_field *field, bool host, m
     mns_status status = plan_check_limits(plan, field, error);
     if (status) return status;
     plan_rest(plan, field->p.count, host);
-    plan_passes(plan);
     plan_pool(plan, field);
-    return MNS_OK;
+    status = plan_rays(plan, field, error);
+    if (!status) plan_passes(plan);
+    return status;
 }
 
 mns_status plan_make(const mns_field *field, const mns_view *view, const mns_look *look,
@@ -285,7 +284,6 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
     plan_lengths(plan, field, options, host);
     domain_check(field, plan->facts.eye_distance, plan->facts.farthest, &plan->domain);
     status = plan_look(look, field, plan, error);
-    if (!status) status = plan_effects_check(plan, error);
     if (!status) status = plan_check_frame(plan, field, error);
     if (!status)
         status = plan->options.method == MNS_METHOD_REFERENCE ? plan_reference(plan, host, error)

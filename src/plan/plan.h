@@ -50,7 +50,8 @@
 #define FEATURE_OCCLUSION    (UINT64_C(1) << 41)
 #define FEATURE_ENVIRONMENT  (UINT64_C(1) << 42) /* a map in the place of the background */
 #define FEATURE_SKY          (UINT64_C(1) << 43) /* the built-in sky in its place */
-enum { FEATURE_COUNT = 44 };
+#define FEATURE_RAYS         (UINT64_C(1) << 44) /* some rays beyond the first are traced, on the GPU */
+enum { FEATURE_COUNT = 45 };
 
 enum { PLAN_MOST = 16 }; /* passes; parts left out are at most PLAN_PARTS */
 enum { PLAN_PARTS = 40 };
@@ -92,10 +93,11 @@ struct mns_plan {
     char *environment;   /* a map's file, where ENVIRONMENT */
     size_t color_column; /* where COLORS */
     double color_range[2];
-    size_t ball_floats; /* a ball in the GPU's buffer */
-    size_t pool_nodes;  /* to begin with */
-    size_t pool_most;   /* allowed */
-    fbvh_options tree;  /* where TREE */
+    size_t ball_floats;    /* a ball in the GPU's buffer */
+    size_t pool_nodes;     /* to begin with */
+    size_t pool_most;      /* allowed */
+    fbvh_options tree;     /* where TREE or RAYS, and then */
+    double tree_origin[3]; /* of the tree's coordinates: origin where TREE */
     const char *method_reason;
     char color_by[64];
     domain_report domain; /* what of the input lies outside the stated domain */
@@ -118,8 +120,11 @@ mns_status plan_look(const mns_look *look, const mns_field *field, mns_plan *pla
 mns_status plan_effects(mns_plan *plan, const mns_field *field, mns_error *error);
 /* What of the effects is left out, and why. */
 void plan_effects_left_out(mns_plan *plan);
-/* Whether the method can draw the effects. Errors: UNSUPPORTED. */
-mns_status plan_effects_check(const mns_plan *plan, mns_error *error);
+/* Of a frame drawn on the GPU: whether rays beyond the first are traced there, and of a list's frame the tree
+ * that carries them. Errors: USAGE. */
+mns_status plan_rays(mns_plan *plan, const mns_field *field, mns_error *error);
+/* Floats a ball of the tree's, x y z [R] [q]. */
+size_t plan_tree_floats(const mns_plan *plan);
 
 /* A method, and why it is that one: a literal. */
 typedef struct plan_choice {
@@ -156,6 +161,10 @@ mns_status plan_check_frame(const mns_plan *plan, const mns_field *field, mns_er
 /* Whether so many balls, and lengths such as these, can be drawn in floats. Errors: UNSUPPORTED. */
 mns_status plan_check_limits(const mns_plan *plan, const mns_field *field, mns_error *error);
 
+/* The place of a tree's coordinates: it stands still, so that the tree does. */
+void plan_tree_place(const mns_field *field, double origin[3]);
+/* Whether the driver reads such a tree as texels. */
+bool plan_tree_texels(const mns_plan *plan, const mns_field *field);
 /* How a tree is built for a driver. Errors: USAGE. */
 mns_status plan_tree_options(const mns_options *options, const mns_limits *limits, fbvh_options *tree,
                              mns_error *error);
@@ -183,6 +192,10 @@ typedef enum plan_shader {
     SHADER_TREE,
     SHADER_TREE_WALK,    /* fbvh_resolve.glsl in float */
     SHADER_TREE_RESOLVE, /* and in doubles */
+    SHADER_EFFECTS_LIST,
+    SHADER_EFFECTS_BEGIN,
+    SHADER_EFFECTS,         /* effects.glsl with rays */
+    SHADER_EFFECTS_RESOLVE, /* and in doubles */
     SHADER_SHADE,
     SHADER_HOST_DEPTH,
     SHADER_HOST_DRAW,
@@ -196,6 +209,8 @@ enum { PLAN_DEFINES = 2048 };
  * it. */
 void plan_shader_files(plan_shader shader, const char **vertex, const char **fragment, const char **compute);
 void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[PLAN_DEFINES]);
+/* Rays that wait at once on light's way beyond a first hit. */
+int plan_path_stack(const mns_plan *plan);
 /* Whether the plan's frame may run that program. */
 bool plan_needs(const mns_plan *plan, plan_shader shader);
 

@@ -12,7 +12,14 @@ typedef struct shader_part {
 #define READS_RAY                                                                                            \
     (READS_BALL | FEATURE_SOLVER | FEATURE_EYE_IN_BALL | FEATURE_EYE_INSIDE | FEATURE_EYE_ON |               \
      FEATURE_HOST | FEATURE_COLORS | FEATURE_LABELS | FEATURE_TEXELS | FEATURE_TILES)
-#define READS_TREE      ((READS_RAY | FEATURE_OVERLAPS) & ~(FEATURE_SOLVER | FEATURE_TEXELS | FEATURE_TILES))
+#define READS_TREE ((READS_RAY | FEATURE_OVERLAPS) & ~(FEATURE_SOLVER | FEATURE_TEXELS | FEATURE_TILES))
+#define READS_PATH                                                                                           \
+    (FEATURE_KERNEL | FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_OVERLAPS | FEATURE_TEXELS |                \
+     FEATURE_EYE_INSIDE | FEATURE_EYE_ON)
+#define READS_WALK                                                                                           \
+    (FEATURE_RAYS | FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_SPECULAR | FEATURE_SHADOWS |     \
+     FEATURE_SOFT_SHADOWS | FEATURE_MIRROR | FEATURE_FRESNEL | FEATURE_REFRACTION | FEATURE_ABSORPTION |     \
+     FEATURE_OCCLUSION | FEATURE_ENVIRONMENT | FEATURE_SKY)
 #define READS_BILLBOARD (FEATURE_RADII | FEATURE_FAR | FEATURE_CLIP_ZERO)
 
 static const shader_part parts[SHADER_COUNT] = {
@@ -35,6 +42,11 @@ static const shader_part parts[SHADER_COUNT] = {
                      READS_TREE | FEATURE_SOLVER | FEATURE_TEXELS | FEATURE_COUNTERS},
     [SHADER_TREE_WALK] = {NULL, NULL, "fbvh_resolve.glsl", READS_TREE},
     [SHADER_TREE_RESOLVE] = {NULL, NULL, "fbvh_resolve.glsl", READS_TREE},
+    [SHADER_EFFECTS_LIST] = {NULL, NULL, "effects_list.glsl", FEATURE_ENVIRONMENT | FEATURE_SKY},
+    [SHADER_EFFECTS_BEGIN] = {NULL, NULL, "effects.glsl", READS_WALK},
+    [SHADER_EFFECTS] = {NULL, NULL, "effects.glsl", READS_WALK | READS_PATH},
+    [SHADER_EFFECTS_RESOLVE] = {NULL, NULL, "effects_resolve.glsl",
+                                (READS_WALK | READS_PATH) & ~(uint64_t)FEATURE_TEXELS},
     [SHADER_SHADE] = {"screen.vert.glsl", "shade.frag.glsl", NULL,
                       FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_DIRECTIONAL | FEATURE_SPECULAR |
                           FEATURE_LIT},
@@ -80,6 +92,16 @@ static void add_features(char *defines, uint64_t f)
         {FEATURE_OVERLAPS, "OVERLAPS"},
         {FEATURE_COUNTERS, "COUNTERS"},
         {FEATURE_LIT, "LIT"},
+        {FEATURE_SHADOWS, "SHADOWS"},
+        {FEATURE_SOFT_SHADOWS, "SOFT_SHADOWS"},
+        {FEATURE_MIRROR, "MIRROR"},
+        {FEATURE_FRESNEL, "FRESNEL"},
+        {FEATURE_REFRACTION, "REFRACTION"},
+        {FEATURE_ABSORPTION, "ABSORPTION"},
+        {FEATURE_OCCLUSION, "OCCLUSION"},
+        {FEATURE_ENVIRONMENT, "ENVIRONMENT"},
+        {FEATURE_SKY, "SKY"},
+        {FEATURE_RAYS, "RAYS"},
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (f & names[i].bit) add(defines, names[i].name, 1);
@@ -89,7 +111,9 @@ static void add_features(char *defines, uint64_t f)
  * 65,535 rounds of all the loops of eight lanes together. The cast, whose lanes walk much alike, may take
  * more: a cut is noticed, and the walk done again. A walk over the list, which comes back for more, stays
  * below a cut by lanes however different. */
-enum { CAST_BUDGET = 24000, WALK_BUDGET = 5000 };
+enum { CAST_BUDGET = 24000, WALK_BUDGET = 5000, RESOLVE_STEPS = 200 };
+
+enum { PATH_SLOTS = 64, PATH_SLOTS_OVERLAPS = 256 }; /* balls of a leaf at once, as trees have them */
 
 static bool is_tree(plan_shader shader)
 {
@@ -107,7 +131,7 @@ static void add_ray(const mns_plan *plan, plan_shader shader, char *defines, uin
     if (shader == SHADER_RESOLVE || shader == SHADER_TREE_RESOLVE) add(defines, "MNS_DOUBLE", 1);
     if (shader != SHADER_CAST && shader != SHADER_TREE) {
         add(defines, "REDO_GROUP", RESOLVE_GROUP);
-        add(defines, "RESOLVE_STEPS", 200);
+        add(defines, "RESOLVE_STEPS", RESOLVE_STEPS);
         return;
     }
     add(defines, "SOLVER_EXACT", MNS_SOLVER_EXACT);
@@ -120,11 +144,51 @@ static void add_ray(const mns_plan *plan, plan_shader shader, char *defines, uin
     add(defines, "ROOT_STEPS", plan->options.root_steps);
 }
 
+/* Rays that wait at once: each surface leaves two where light is mirrored and goes through, and one follows
+ * them down first. */
+static int path_stack(const mns_plan *plan, uint64_t f)
+{
+    const mns_effects *e = &plan->look.effects;
+    return f & FEATURE_MIRROR && f & FEATURE_REFRACTION ? e->reflections + e->refractions + 1 : 1;
+}
+
+int plan_path_stack(const mns_plan *plan)
+{
+    return path_stack(plan, plan->features);
+}
+
+/* What light's ways beyond the first hit are specialised by; returns the features that are left to tell. */
+static uint64_t add_paths(const mns_plan *plan, plan_shader shader, char *defines, uint64_t f)
+{
+    add(defines, "PATHS", 1);
+    add(defines, "PATH_STACK", path_stack(plan, f));
+    if (shader == SHADER_EFFECTS_BEGIN) return f;
+    add(defines, "RAYS_NOW", 1);
+    if (f & (FEATURE_EYE_INSIDE | FEATURE_EYE_ON | FEATURE_REFRACTION)) add(defines, "BOTH_SIDES", 1);
+    add(defines, "KERNEL", (int)(f & FEATURE_KERNEL));
+    add(defines, "TREE_DEPTH", FBVH_DEPTH_MOST + 1);
+    if (shader == SHADER_EFFECTS) {
+        add(defines, "WALK_BUDGET", CAST_BUDGET);
+        add(defines, "SOLVER_EXACT", MNS_SOLVER_EXACT);
+        add(defines, "SOLVER_SECANT", MNS_SOLVER_SECANT);
+        add(defines, "SOLVER", MNS_SOLVER_EXACT);
+        add(defines, "SLOTS", f & FEATURE_OVERLAPS ? PATH_SLOTS_OVERLAPS : PATH_SLOTS);
+        add(defines, "ROOT_STEPS", plan->options.root_steps);
+    } else {
+        add(defines, "WALK_BUDGET", WALK_BUDGET);
+        add(defines, "MNS_DOUBLE", 1);
+        add(defines, "RESOLVE_STEPS", RESOLVE_STEPS);
+    }
+    return f & ~(FEATURE_EYE_INSIDE | FEATURE_EYE_ON);
+}
+
 void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[PLAN_DEFINES])
 {
     uint64_t f = plan->features & parts[shader].reads;
     if (f & FEATURE_LIT) f = FEATURE_LIT; /* all that is left is to weight what it finds */
     defines[0] = '\0';
+    if (shader >= SHADER_EFFECTS_BEGIN && shader <= SHADER_EFFECTS_RESOLVE)
+        f = add_paths(plan, shader, defines, f);
     if (shader == SHADER_CAST || shader == SHADER_WALK || shader == SHADER_RESOLVE || is_tree(shader))
         add_ray(plan, shader, defines, f);
     if (shader == SHADER_CORE_QUADS || shader == SHADER_CORE_POINTS) {
@@ -146,6 +210,8 @@ bool plan_needs(const mns_plan *plan, plan_shader shader)
 {
     uint64_t f = plan->features;
     if (f & FEATURE_REFERENCE) return shader == SHADER_SHADE;
+    if (shader == SHADER_EFFECTS || shader == SHADER_EFFECTS_RESOLVE) return f & FEATURE_RAYS;
+    if (shader == SHADER_EFFECTS_LIST || shader == SHADER_EFFECTS_BEGIN) return f & FEATURE_LIT;
     if (is_tree(shader)) return f & FEATURE_TREE;
     if (f & FEATURE_TREE && shader < SHADER_TREE) return false;
     if (f & FEATURE_TILES && shader < SHADER_SHUFFLE) return false;

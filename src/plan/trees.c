@@ -23,14 +23,9 @@ mns_status plan_tree_options(const mns_options *options, const mns_limits *limit
 
 static mns_status plan_tree(mns_plan *plan, const mns_field *field, mns_error *error)
 {
-    const fbvh_options *tree = &plan->tree;
     mns_status status = plan_tree_options(&plan->options, &plan->limits, &plan->tree, error);
     if (status) return status;
-    double texels = plan->limits.max_texture_buffer,
-           references = tree->references_a_ball * (double)field->p.count;
-    const size_t whole_words = tree->max_block_bytes / sizeof(uint32_t);
-    double words = (double)whole_words;
-    if ((references < words ? references : words) + 1 < texels && 5.0 * (double)field->p.count < texels)
+    if (plan_tree_texels(plan, field))
         plan->features |= FEATURE_TEXELS;
     else
         plan_leave_out(plan, "reading by texels", "this driver's buffer textures are too small");
@@ -59,11 +54,14 @@ static void plan_rest(mns_plan *plan, bool host)
 
 static void plan_passes(mns_plan *plan)
 {
-    static const char *const passes[] = {"build",   "upload", "host_depth", "trace",
-                                         "resolve", "shade",  "host_draw"};
-    bool host = plan->features & FEATURE_HOST;
-    for (size_t i = 0; i < sizeof passes / sizeof *passes; i++)
-        if (host || strncmp(passes[i], "host", 4) != 0) plan->pass[plan->pass_count++] = passes[i];
+    bool host = plan->features & FEATURE_HOST, lit = plan->features & FEATURE_LIT;
+    const struct {
+        const char *name;
+        bool wanted;
+    } all[] = {{"build", true},   {"upload", true}, {"host_depth", host}, {"trace", true},
+               {"resolve", true}, {"effects", lit}, {"shade", true},      {"host_draw", host}};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        if (all[i].wanted) plan->pass[plan->pass_count++] = all[i].name;
 }
 
 mns_status plan_trees(mns_plan *plan, const mns_field *field, bool host, mns_error *error)
@@ -76,6 +74,7 @@ mns_status plan_trees(mns_plan *plan, const mns_field *field, bool host, mns_err
     if (!status) status = plan_check_limits(plan, field, error);
     if (status) return status;
     plan_rest(plan, host);
-    plan_passes(plan);
-    return MNS_OK;
+    status = plan_rays(plan, field, error);
+    if (!status) plan_passes(plan);
+    return status;
 }

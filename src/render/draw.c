@@ -153,8 +153,8 @@ static mns_status draw_region(draw *d, list_region region, mns_error *error)
     return status;
 }
 
-/* All passes of one sample, into the planes. */
-static mns_status draw_sample(draw *d, const double jitter[2], mns_error *error)
+/* The first hits of one sample, into the planes. */
+static mns_status draw_planes(draw *d, const double jitter[2], mns_error *error)
 {
     const mns_plan *plan = d->plan;
     if (plan->features & FEATURE_REFERENCE) return draw_reference_sample(d, jitter, error);
@@ -166,6 +166,14 @@ static mns_status draw_sample(draw *d, const double jitter[2], mns_error *error)
         draw_mark(d, MNS_PHASE_CORE_DEPTH);
     }
     return draw_region(d, whole, error);
+}
+
+/* All passes of one sample, into the planes. */
+static mns_status draw_sample(draw *d, const double jitter[2], mns_error *error)
+{
+    mns_status status = draw_planes(d, jitter, error);
+    bool lit = d->plan->features & FEATURE_LIT && !(d->plan->features & FEATURE_REFERENCE);
+    return !status && lit ? draw_effects_sample(d, jitter, error) : status;
 }
 
 static mns_status shade_sample(draw *d, int sample, const double jitter[2], mns_error *error)
@@ -209,6 +217,7 @@ static mns_status draw_balls(draw *d, mns_error *error)
     mns_status status = traced ? draw_reference_begin(d, error)
                         : tree ? draw_tree_begin(d, error)
                                : draw_balls_upload(d, error);
+    if (!status && !traced && d->plan->features & FEATURE_LIT) status = draw_effects_begin(d, error);
     d->stats->balls_in_view = traced || tree ? d->field->p.count : d->r->order.count;
     if (!status) status = draw_samples(d, error);
     draw_reference_end(d);

@@ -62,6 +62,14 @@ mns_status draw_wide_view(draw *d, mns_error *error);
  * traces one sample of every pixel into the planes. Errors: MEMORY, UNSUPPORTED, GL. */
 mns_status draw_tree_begin(draw *d, mns_error *error);
 mns_status draw_tree_sample(draw *d, mns_error *error);
+/* The low words of the tree's balls and the view in doubles. What ran before counts to `phase`. Errors:
+ * MEMORY, GL. */
+mns_status draw_tree_low(draw *d, mns_phase phase, mns_error *error);
+
+/* effects.c: what a frame's light beyond the first hit needs, a list's tree among it; one sample's light,
+ * from the planes that are there. Errors: MEMORY, UNSUPPORTED, GL; of the environment's file. */
+mns_status draw_effects_begin(draw *d, mns_error *error);
+mns_status draw_effects_sample(draw *d, const double jitter[2], mns_error *error);
 
 /* lists.c: gives every pixel of a region its list. *fits: false where they pass what the driver's blocks
  * hold. Errors: MEMORY, GL. */

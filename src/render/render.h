@@ -3,6 +3,7 @@
 #define MNS_RENDER_RENDER_H
 
 #include "list/passes.h"
+#include "shade/effects.h"
 #include "tile/tile.h"
 #include "trace/passes.h"
 
@@ -44,6 +45,7 @@ struct mns_renderer {
     trace_worker worker;
     render_tree tree; /* zeroed: none is uploaded */
     gl_buffer shade;
+    shade_effects effects;
     render_last last;
     bool disordered; /* lists have come out of order on this driver: sort them before they are cast */
 };

@@ -33,6 +33,7 @@ void mns_renderer_destroy(mns_renderer *r)
     trace_passes_free(&r->trace, &r->device);
     tile_bins_free(&r->bins);
     gl_buffer_free(&r->device, &r->shade);
+    shade_effects_free(&r->effects, &r->device);
     gl_programs_free(&r->device, &r->programs);
     gl_device_close(&r->device);
     free(r);
@@ -56,8 +57,8 @@ size_t mns_renderer_messages(const mns_renderer *renderer, const char **last)
 
 const char *mns_phase_name(mns_phase phase)
 {
-    static const char *const names[MNS_PHASE_COUNT] = {"sort",   "bin",   "upload",  "core_depth",
-                                                       "gather", "build", "cast",    "normal",
-                                                       "trace",  "shade", "readback"};
+    static const char *const names[MNS_PHASE_COUNT] = {"sort",   "bin",     "upload", "core_depth",
+                                                       "gather", "build",   "cast",   "normal",
+                                                       "trace",  "effects", "shade",  "readback"};
     return (unsigned)phase < MNS_PHASE_COUNT ? names[phase] : NULL;
 }

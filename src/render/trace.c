@@ -91,11 +91,11 @@ mns_status draw_tree_begin(draw *d, mns_error *error)
 /* ---- The rays
  * --------------------------------------------------------------------------------------------------- */
 
-static mns_status send_low(draw *d, mns_error *error)
+mns_status draw_tree_low(draw *d, mns_phase phase, mns_error *error)
 {
     mns_status status = draw_wide_view(d, error);
     if (status || d->r->tree.low) return status;
-    draw_mark(d, MNS_PHASE_TRACE);
+    draw_mark(d, phase);
     status = trace_upload_low(&d->r->trace, &d->r->device, d->plan, d->field, error);
     d->r->tree.low = !status;
     draw_mark(d, MNS_PHASE_UPLOAD);
@@ -114,7 +114,7 @@ static mns_status resolve(draw *d, const GLuint *planes, list_counts *counts, mn
     }
     if (!counts->undecided_float) return MNS_OK;
     mns_status status = draw_late_program(d, SHADER_TREE_RESOLVE, MNS_PHASE_TRACE, error);
-    if (!status) status = send_low(d, error);
+    if (!status) status = draw_tree_low(d, MNS_PHASE_TRACE, error);
     if (status) return status;
     trace_resolve(&r->trace, &r->passes, &r->device, d->plan, d->program[SHADER_TREE_RESOLVE], true, planes,
                   counts);

@@ -89,7 +89,7 @@ void trace_pack_nodes(const fbvh_tree *tree, const trace_grid *grid, trace_pair 
 
 void trace_pack_balls(const fbvh_tree *tree, const mns_plan *plan, float *out)
 {
-    size_t stride = plan->ball_floats;
+    size_t stride = plan_tree_floats(plan);
     bool radii = plan->features & FEATURE_RADII, strengths = plan->features & FEATURE_STRENGTHS;
 #pragma omp parallel for if (tree->ball_count > CHUNK * 8)
     for (size_t i = 0; i < tree->ball_count; i++) {
@@ -103,13 +103,13 @@ void trace_pack_balls(const fbvh_tree *tree, const mns_plan *plan, float *out)
 void trace_pack_low(const uint32_t *index, size_t count, const mns_field *field, const mns_plan *plan,
                     float *out)
 {
-    size_t stride = plan->ball_floats;
+    size_t stride = plan_tree_floats(plan);
     bool radii = plan->features & FEATURE_RADII, strengths = plan->features & FEATURE_STRENGTHS;
 #pragma omp parallel for if (count > CHUNK * 8)
     for (size_t i = 0; i < count; i++) {
         float *to = out + i * stride;
         for (int axis = 0; axis < 3; axis++) {
-            double exact = field->p.axis[axis][index[i]] - plan->origin[axis];
+            double exact = field->p.axis[axis][index[i]] - plan->tree_origin[axis];
             to[axis] = (float)(exact - (double)rounded(exact));
         }
         double radius = field_radius(field, index[i]), strength = field_strength(field, index[i]);

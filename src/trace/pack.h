@@ -35,7 +35,7 @@ trace_grid trace_grid_of(const fbvh_tree *tree);
 /* Fill pair_count pairs, leaf_count leaves. */
 void trace_pack_nodes(const fbvh_tree *tree, const trace_grid *grid, trace_pair *pair, trace_leaf *leaf);
 
-/* The balls of `index` (into the field; the tree's order) as glsl/balls.glsl reads them, plan->ball_floats
+/* The balls of `index` (into the field; the tree's order) as glsl/balls.glsl reads them, plan_tree_floats
  * floats each, relative to `origin`; what their floats left over; their colours. */
 void trace_pack_balls(const fbvh_tree *tree, const mns_plan *plan, float *out);
 void trace_pack_low(const uint32_t *index, size_t count, const mns_field *field, const mns_plan *plan,

@@ -58,7 +58,7 @@ static mns_status upload_balls(trace_passes *t, gl_device *device, const mns_pla
                                const fbvh_tree *tree, mns_error *error)
 {
     void *data;
-    size_t size = tree->ball_count * plan->ball_floats * sizeof(float);
+    size_t size = tree->ball_count * plan_tree_floats(plan) * sizeof(float);
     do {
         mns_status status = map(device, plan, &t->balls, "balls", size, &data, error);
         if (status) return status;
@@ -106,7 +106,7 @@ mns_status trace_upload_low(trace_passes *t, gl_device *device, const mns_plan *
                             mns_error *error)
 {
     void *data;
-    size_t size = t->count * plan->ball_floats * sizeof(float);
+    size_t size = t->count * plan_tree_floats(plan) * sizeof(float);
     do {
         mns_status status = map(device, plan, &t->balls_low, "balls", size, &data, error);
         if (status) return status;
@@ -128,14 +128,12 @@ static void bind_texels(gl_device *device, GLuint *texture, GLenum unit, GLenum 
     gl->TexBuffer(GL_TEXTURE_BUFFER, format, buffer->id);
 }
 
-static void bind_tree(trace_passes *t, list_passes *p, gl_device *device, const mns_plan *plan,
-                      const GLuint plane[TRACE_PLANES])
+void trace_bind(trace_passes *t, list_passes *p, gl_device *device, const mns_plan *plan)
 {
     static const GLenum formats[] = {[3] = GL_RGB32F, [4] = GL_RGBA32F, [5] = GL_R32F};
-    static const GLenum plane_formats[TRACE_PLANES] = {GL_RG32F, GL_RGBA32F, GL_RGBA16F, GL_RGBA32F};
     const GladGLContext *gl = &device->gl;
     if (plan->features & FEATURE_TEXELS) {
-        bind_texels(device, &t->ball_texels, GL_TEXTURE2, formats[plan->ball_floats], &t->balls);
+        bind_texels(device, &t->ball_texels, GL_TEXTURE2, formats[plan_tree_floats(plan)], &t->balls);
         bind_texels(device, &t->pair_texels, GL_TEXTURE3, GL_RGBA32UI, &t->pairs);
         bind_texels(device, &t->leaf_texels, GL_TEXTURE4, GL_RGBA32UI, &t->leaves);
         bind_texels(device, &t->reference_texels, GL_TEXTURE5, GL_R32UI, &t->references);
@@ -146,6 +144,14 @@ static void bind_tree(trace_passes *t, list_passes *p, gl_device *device, const 
                   {4, t->colors.id}, {5, t->leaves.id},    {6, t->references.id}};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         if (blocks[i].id) gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, blocks[i].binding, blocks[i].id);
+}
+
+static void bind_tree(trace_passes *t, list_passes *p, gl_device *device, const mns_plan *plan,
+                      const GLuint plane[TRACE_PLANES])
+{
+    static const GLenum plane_formats[TRACE_PLANES] = {GL_RG32F, GL_RGBA32F, GL_RGBA16F, GL_RGBA32F};
+    const GladGLContext *gl = &device->gl;
+    trace_bind(t, p, device, plan);
     if (p->far_block.id) gl->BindBufferBase(GL_UNIFORM_BUFFER, 1, p->far_block.id);
     gl->ActiveTexture(GL_TEXTURE0);
     gl->BindTexture(GL_TEXTURE_2D, p->host_depth);
@@ -153,7 +159,7 @@ static void bind_tree(trace_passes *t, list_passes *p, gl_device *device, const 
         if (plane[i]) gl->BindImageTexture(1 + i, plane[i], 0, GL_FALSE, 0, GL_WRITE_ONLY, plane_formats[i]);
 }
 
-static void use(const trace_passes *t, gl_device *device, GLuint program)
+void trace_use(const trace_passes *t, gl_device *device, GLuint program)
 {
     const GladGLContext *gl = &device->gl;
     gl->UseProgram(program);
@@ -162,7 +168,7 @@ static void use(const trace_passes *t, gl_device *device, GLuint program)
     gl->Uniform1ui(UNIFORM_ROOT, t->grid.root);
 }
 
-static void finish(list_passes *p, gl_device *device, list_counts *counts)
+void trace_finish(list_passes *p, gl_device *device, list_counts *counts)
 {
     const GladGLContext *gl = &device->gl;
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
@@ -182,12 +188,12 @@ void trace_cast(trace_passes *t, list_passes *p, gl_device *device, const mns_pl
     gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof none, &none);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view.id);
     bind_tree(t, p, device, plan, plane);
-    use(t, device, program);
+    trace_use(t, device, program);
     gl->Uniform4i(UNIFORM_REGION, region.x, region.y, region.x + region.width, region.y + region.height);
     if (plan->options.solver == MNS_SOLVER_SECANT)
         gl->Uniform1i(UNIFORM_SECANT_STEPS, plan->options.secant_steps);
     gl->DispatchCompute((GLuint)(region.width + 7) / 8, (GLuint)(region.height + 7) / 8, 1);
-    finish(p, device, counts);
+    trace_finish(p, device, counts);
 }
 
 void trace_resolve(trace_passes *t, list_passes *p, gl_device *device, const mns_plan *plan, GLuint program,
@@ -198,13 +204,13 @@ void trace_resolve(trace_passes *t, list_passes *p, gl_device *device, const mns
     const uint32_t zero = 0;
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, wide ? p->view_wide.id : p->view.id);
     bind_tree(t, p, device, plan, plane);
-    use(t, device, program);
+    trace_use(t, device, program);
     do {
         GLuint groups = (counts->redo + RESOLVE_GROUP - 1) / RESOLVE_GROUP;
         gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
         gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, offsetof(list_counts, unfinished), sizeof zero, &zero);
         gl->DispatchCompute(groups < most ? groups : most, (groups + most - 1) / most, 1);
-        finish(p, device, counts);
+        trace_finish(p, device, counts);
     } while (counts->unfinished);
 }
 

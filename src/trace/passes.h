@@ -25,6 +25,12 @@ mns_status trace_upload_colors(trace_passes *t, gl_device *device, const mns_pla
 mns_status trace_upload_low(trace_passes *t, gl_device *device, const mns_plan *plan, const mns_field *field,
                             mns_error *error);
 
+/* For whoever traces through the tree: binds it and the list of pixels to be done again; tells a program of
+ * it, which is then in use; waits for what was dispatched, and reads the list's counts. */
+void trace_bind(trace_passes *t, list_passes *p, gl_device *device, const mns_plan *plan);
+void trace_use(const trace_passes *t, gl_device *device, GLuint program);
+void trace_finish(list_passes *p, gl_device *device, list_counts *counts);
+
 /* Planes: t, normal, color or 0, counts or 0. */
 enum { TRACE_PLANES = 4 };
 

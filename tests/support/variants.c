@@ -34,6 +34,13 @@ static bool effects_possible(uint64_t f)
            !(f & FEATURE_ENVIRONMENT && f & FEATURE_SKY);
 }
 
+/* Rays beyond the first: of shadows and so on, and of mirrors where they have levels. */
+static bool rays_possible(uint64_t f)
+{
+    const uint64_t always = FEATURE_SHADOWS | FEATURE_OCCLUSION | FEATURE_REFRACTION;
+    return f & FEATURE_RAYS ? f & (always | FEATURE_MIRROR) : !(f & always);
+}
+
 bool variant_possible(uint64_t f)
 {
     unsigned kernel = f & FEATURE_KERNEL, solver = (f & FEATURE_SOLVER) >> 3;
@@ -44,7 +51,7 @@ bool variant_possible(uint64_t f)
                !(f & ~(looks | EFFECTS | FEATURE_KERNEL | FEATURE_REFERENCE)) && effects_possible(f) &&
                implies(f, FEATURE_LABELS, FEATURE_COLORS);
     }
-    if (f & EFFECTS) return false;
+    if (!effects_possible(f) || !rays_possible(f)) return false;
     bool each_core = f & FEATURE_CORE && f & FEATURE_STRENGTHS;
     bool tree = f & FEATURE_TREE;
     if (tree && (f & NEVER_OF_TREES || (solver != MNS_SOLVER_EXACT && solver != MNS_SOLVER_SECANT)))
@@ -88,14 +95,17 @@ static uint64_t fill_in(plan_shader shader, uint64_t reads, uint64_t f)
 {
     bool quads = shader == SHADER_CORE_QUADS || shader == SHADER_GATHER_QUADS;
     bool tree = shader == SHADER_TREE || shader == SHADER_TREE_WALK || shader == SHADER_TREE_RESOLVE;
-    uint64_t more = f & FEATURE_TILES ? 0
-                    : f & FEATURE_LIT ? FEATURE_REFERENCE | FEATURE_SKY
-                    : tree            ? FEATURE_TREE
-                    : quads           ? FEATURE_QUADS
-                                      : FEATURE_POINTS | FEATURE_QUADS;
+    bool effects = shader >= SHADER_EFFECTS_LIST && shader <= SHADER_EFFECTS_RESOLVE;
+    uint64_t more = effects             ? FEATURE_TREE | FEATURE_LIT | FEATURE_LIGHTS | FEATURE_DIRECTIONAL
+                    : f & FEATURE_TILES ? 0
+                    : f & FEATURE_LIT   ? FEATURE_REFERENCE | FEATURE_SKY
+                    : tree              ? FEATURE_TREE
+                    : quads             ? FEATURE_QUADS
+                                        : FEATURE_POINTS | FEATURE_QUADS;
     if (!(reads & FEATURE_KERNEL)) more |= MNS_KERNEL_POLY3;
     if (f & FEATURE_EYE_INSIDE) more |= FEATURE_EYE_IN_BALL;
     if (f & FEATURE_LABELS) more |= FEATURE_COLORS;
+    if (f & FEATURE_SOFT_SHADOWS) more |= FEATURE_POINT_LIGHTS;
     if (f & FEATURE_CORE_RADII) more |= FEATURE_CORE | FEATURE_STRENGTHS;
     if (shader == SHADER_CORE_QUADS || shader == SHADER_CORE_POINTS) more |= FEATURE_CORE;
     return f | (more & ~reads);

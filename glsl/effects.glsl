@@ -1,0 +1,137 @@
+// What light does beyond each pixel's first hit, to its colour and its terms, from the list of pixels that see a surface. Compute
+// shader, in two parts. The first finishes the pixels that need no ray, and lists the others; the second (RAYS_NOW) leads their walks,
+// an entry of a list each: it traces a ray, uses what was found, looks for the next, and goes on until the walk ends, or the dispatch
+// has done enough, or float cannot decide; that ray is asked in doubles (effects_resolve.glsl). What waits is listed anew by every
+// dispatch, so that groups are full.
+#include "real.glsl"
+#define UINT uint
+#include "density.glsl"
+#include "optics.glsl"
+#include "samples.glsl"
+#include "view.glsl"
+#if defined(COLORS) && !(defined(COLOR_LABELS) && defined(RAYS_NOW))
+#include "color.glsl"
+#endif
+#define LIGHTING_BLOCK 2
+#include "lighting.glsl"
+#include "paths_block.glsl"
+#include "environment.glsl"
+#include "paths.glsl"
+#include "redo.glsl"
+#include "paths_planes.glsl"
+#include "paths_pixel.glsl"
+
+#ifndef RAYS_NOW
+void main()
+{
+    uint index = path_index();
+    if (index >= count_unfinished) return;
+    uint pixel = path_pixels[index];
+    ivec2 at = ivec2(pixel & 0xffffu, pixel >> 16u);
+    begin(at);
+    if (path_next()) {
+        uint slot = atomicAdd(redo_count, 1u);
+        redo_entry[slot] = uvec4(pixel, slot, 0u, 0u);
+    } else {
+        finish(at);
+    }
+}
+#else
+#include "paths_store.glsl"
+#include "loops.glsl"
+#include "balls.glsl"
+#ifdef BALL_TEXELS
+#define TREE_TEXELS
+#endif
+#include "tree.glsl"
+#include "chord.glsl"
+#include "active_leaf.glsl"
+#define ROOT_MATTERS (path_asks == ASKS_PATH)
+#include "exact.glsl"
+#include "tree_cast.glsl"
+#include "surface.glsl"
+
+// What path_ray met; PIECE_OPEN and PIECE_CAP: not known.
+struct Answer {
+    int found;
+    float t;
+    vec3 normal;
+    vec3 albedo;
+};
+
+Answer ask()
+{
+    view_reach = sqrt(dot(path_ray.start, path_ray.start));
+    Cast got = tree_cast(path_ray, 0.0, path_limit, path_inwards ? 1.0 : -1.0);
+    Answer answer = Answer(got.found, got.t, vec3(0.0), vec3(0.0));
+#ifdef PATHS_ON
+    if (path_asks != ASKS_PATH || got.found != PIECE_HIT) return answer;
+#ifdef OVERLAPS
+    float stop;
+    slots_fill(path_ray, tree_leaf_at(got.leaf, got.t, got.t), stop);
+    slot_count = min(slot_count, SLOTS);
+    active_from = got.t;
+#endif
+    Surface surface = surface_at(path_ray, got.t);
+    bool settled = abs(surface.shift) <= 1.0e-4 * surface.radius && surface.blur <= SETTLED * (got.t + view_reach + surface.radius);
+    if (!settled) answer.found = PIECE_OPEN;
+    answer.t = got.t + surface.shift;
+    answer.normal = surface.normal;
+    answer.albedo = lighting_albedo(surface.color);
+#endif
+    return answer;
+}
+
+const int PATH_BUDGET = WALK_BUDGET / 6; // work after which a walk goes on in another dispatch
+
+// Goes on up to the walk's end, REDO_DONE, or to where it is to be left: REDO_FLOAT, REDO_DOUBLE. `most`: work of this dispatch.
+uint walk(int most, out uint rays)
+{
+    uint state;
+    int work = 0;
+    rays = 0u;
+    do {
+        state = REDO_DONE;
+        if (!path_next()) break;
+        Answer answer = ask();
+        work += cast_work + 16;
+        state = REDO_DOUBLE;
+        if (answer.found != PIECE_OPEN && answer.found != PIECE_CAP) {
+            rays++;
+            path_use(answer.found == PIECE_HIT, answer.t, answer.normal, answer.albedo);
+            state = REDO_FLOAT;
+        }
+    } while (state == REDO_FLOAT && work < most);
+    return state;
+}
+
+void main()
+{
+    uint index = path_index();
+    if (index >= path_lists.w) return;
+    uvec4 entry = redo_entry[path_lists.x + index];
+    ivec2 at = ivec2(entry.x & 0xffffu, entry.x >> 16u);
+    bool alone = (entry.y & ENTRY_ALONE) != 0u;
+    uint rays;
+    if ((entry.y & ENTRY_HELD) != 0u)
+        path_load(at, entry.y);
+    else
+        begin(at);
+    uint state = walk(alone ? 1 : PATH_BUDGET, rays);
+    if (!loops_whole(int(level_two))) {
+        // The driver has cut loops short, and nothing has come of it: from where it was taken up the walk is led one ray a dispatch,
+        // and where it was so already, in doubles.
+        entry.y |= ENTRY_ALONE;
+        state = alone ? REDO_DOUBLE : REDO_FLOAT;
+    } else {
+        atomicAdd(count_spare, rays);
+        entry.y = (entry.y & ENTRY_SLOT) | ENTRY_HELD;
+        if (state == REDO_DONE)
+            finish(at);
+        else
+            path_save(entry.y);
+    }
+    if (state == REDO_FLOAT) entry_wait(entry);
+    if (state == REDO_DOUBLE) entry_wait_double(entry);
+}
+#endif

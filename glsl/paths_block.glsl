@@ -1,0 +1,29 @@
+// The camera, the lights and the numbers of light's ways beyond the first hit; what both the list of their pixels and the walks read.
+
+#define PATH_LIGHTS 256
+
+layout(std140, binding = 1) uniform Paths {
+    dvec4 path_corner; // raw direction at pixel (0, 0)
+    dvec4 path_step_x; // its change a pixel
+    dvec4 path_step_y;
+    dvec4 path_eye;    // relative to the tree's origin, as all places are
+    dvec4 path_optics; // share mirrored at any angle, index of refraction, share that goes through, reach of the occlusion's rays
+    dvec4 light_place[PATH_LIGHTS]; // of a directional light the unit direction to it; w: radius
+    vec4 light_radiance[PATH_LIGHTS]; // linear; w: kind, as mns_light_kind
+    vec4 environment_right; // its axes in the scene
+    vec4 environment_up;
+    vec4 environment_back;
+    vec4 path_absorption; // a unit of length
+    ivec4 path_counts; // lights, those that cast shadows, rays a pixel and sphere of light, rays of the ambient light
+    uvec4 path_levels; // of mirroring, surfaces that light passes through; seed, index of the pixel's sample
+    ivec4 path_size;   // of the frame
+};
+
+#define PATH_NOTHING uintBitsToFloat(0x7f800000u) // how far a ray goes that meets nothing
+
+// The unit direction of the pixel's ray, from the eye.
+dvec3 path_first_way(vec2 position)
+{
+    dvec3 raw = path_corner.xyz + double(position.x) * path_step_x.xyz + double(position.y) * path_step_y.xyz;
+    return raw / sqrt(dot(raw, raw));
+}

@@ -1,0 +1,33 @@
+// What light's ways beyond the first hit are read from and written to. One pixel an invocation: of a region, or of the list of those
+// that see a surface.
+
+layout(local_size_x = 64) in;
+layout(location = 3) uniform ivec4 path_region; // x, y, past x, past y
+layout(binding = 6) uniform sampler2D plane_t;
+layout(binding = 7) uniform sampler2D plane_normal;
+#ifdef COLORS
+layout(binding = 8) uniform sampler2D plane_color;
+#endif
+layout(binding = 1, rgba32f) writeonly uniform image2D plane_lit;
+layout(binding = 2, rgba32f) writeonly uniform image2D plane_terms;
+layout(binding = 3, r32f) writeonly uniform image2D plane_settled;
+#ifdef RAYS_NOW
+layout(location = 4) uniform uvec4 path_lists; // of redo_entry: this dispatch's first, where those go that wait in float, and those for
+                                               // doubles; how many are this dispatch's
+#else
+layout(std430, binding = 0) buffer PathPixels {
+    uint path_pixels[]; // x + 65536 y; as many as count_unfinished says
+};
+#endif
+
+void paths_write(ivec2 at, vec4 lit, vec4 terms, bool settled)
+{
+    imageStore(plane_lit, at, lit);
+    imageStore(plane_terms, at, terms);
+    imageStore(plane_settled, at, vec4(settled ? 1.0 : 0.0));
+}
+
+uint path_index()
+{
+    return (gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x) * 64u + gl_LocalInvocationIndex;
+}
