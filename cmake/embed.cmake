@@ -4,6 +4,6 @@ set(MNS_GLSL_TEXT ${CMAKE_BINARY_DIR}/glsl_text.c)
 add_executable(embed_glsl cmake/embed_glsl.c)
 add_custom_command(
   OUTPUT ${MNS_GLSL_TEXT}
-  COMMAND embed_glsl ${MNS_GLSL_TEXT} ${MNS_GLSL_FILES}
+  COMMAND embed_glsl ${MNS_GLSL_TEXT} glsl_texts ${MNS_GLSL_FILES}
   DEPENDS embed_glsl ${MNS_GLSL_FILES}
   COMMENT "embedding glsl/")

@@ -1,5 +1,5 @@
 /* Build tool: writes glsl files as a C table of {name, text}, comments stripped and line counts kept.
- * usage: embed_glsl OUTPUT.c FILE.glsl ... */
+ * usage: embed_glsl OUTPUT.c NAME FILE.glsl ..., NAME being that of the table */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,12 +38,13 @@ static int embed(FILE *out, const char *path)
 
 int main(int count, char **arguments)
 {
-    if (count < 2) return 2;
+    if (count < 3) return 2;
     FILE *out = fopen(arguments[1], "w");
     if (!out) return 1;
-    fputs("#include \"gl/glsl_text.h\"\n\n#include <stddef.h>\n\nconst glsl_text glsl_texts[] = {\n", out);
+    fputs("#include \"gl/glsl_text.h\"\n\n#include <stddef.h>\n\n", out);
+    fprintf(out, "extern const glsl_text %s[];\nconst glsl_text %s[] = {\n", arguments[2], arguments[2]);
     int failed = 0;
-    for (int i = 2; i < count; i++) failed |= embed(out, arguments[i]);
+    for (int i = 3; i < count; i++) failed |= embed(out, arguments[i]);
     fputs("    {NULL, NULL},\n};\n", out);
     return fclose(out) || failed;
 }

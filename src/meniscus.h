@@ -137,6 +137,8 @@ typedef struct mns_column_info {
 MNS_API void mns_field_get_info(const mns_field *field, mns_field_info *info);
 /* Column `index` < column_count. False where there is none. */
 MNS_API bool mns_field_get_column(const mns_field *field, size_t index, mns_column_info *info);
+/* What ball `ball` < count has in column `index`; NAN where there is no such column or ball. */
+MNS_API double mns_field_value(const mns_field *field, size_t index, size_t ball);
 
 /* ---- Input: particle files and generators
  * ------------------------------------------------------------------ */
@@ -297,17 +299,26 @@ typedef enum mns_solver {
     MNS_SOLVER_CUBIC_MONOMIAL, /* of list and tile */
     MNS_SOLVER_SECANT          /* of fbvh and bvh: as published, not certified */
 } mns_solver;
+/* "list", "exact" and so on; NULL for a value that is none. */
+MNS_API const char *mns_method_name(mns_method method);
+MNS_API const char *mns_solver_name(mns_solver solver);
 typedef enum mns_gather { MNS_GATHER_EARLY_Z = 0, MNS_GATHER_PAPER } mns_gather;
 
 typedef struct mns_options {
     mns_method method;
     mns_solver solver;
     mns_gather gather;
-    int samples;  /* samples a pixel for colour; 0: 1; planes are the centre sample's whatever it is; at most
-                     64 */
-    bool moved;   /* every position changed since the last draw: reuse nothing */
-    int draws;    /* for AUTO: how often this field will be drawn as it is; 0: once */
-    bool measure; /* fill the phases' times (each closed by glFinish) and the lengths of the lists */
+    int samples; /* samples a pixel for colour; 0: 1; planes are the centre sample's whatever it is; at most
+                    64 */
+    /* A picture sample by sample: of `samples`, those from sample_first on, sample_count of them (0: all that
+     * are left), are drawn. From 1 on they are added to what the frame holds, which must be the samples
+     * before, of the same view; its colours are weighted so that they are right when the last is in, and the
+     * planes are the last sample's until then, the centre's from then on: the whole is the same, bit for bit,
+     * as drawn at once. */
+    int sample_first, sample_count;
+    bool moved;       /* every position changed since the last draw: reuse nothing */
+    int draws;        /* for AUTO: how often this field will be drawn as it is; 0: once */
+    bool measure;     /* fill the phases' times (each closed by glFinish) and the lengths of the lists */
     const char *tree; /* how fbvh and bvh are built: "no-fit,cost-n,..." (README); borrowed for the call */
     int secant_steps; /* most steps of the solver secant; 0: 16 */
     bool counters;    /* of fbvh and bvh: count a ray's work, see mns_image.work and mns_stats */
@@ -412,6 +423,10 @@ MNS_API const char *mns_renderer_name(const mns_renderer *renderer);
  * gives them away: at most 64 MiB. This names another folder for those that are made from now on; NULL: they
  * are kept nowhere. Nothing fails because of it: what is not there, or does not fit, is compiled. */
 MNS_API void mns_renderer_keep_programs(mns_renderer *renderer, const char *folder);
+/* Reads the shaders' text from a folder, such as the glsl/ that this library is made from, in place of what
+ * is built in, and compiles every program made so far anew. On failure all stays as it was. For development.
+ * Errors: IO, INPUT (no such shaders), GL (the compiler's first complaint), MEMORY. */
+MNS_API mns_status mns_renderer_read_shaders(mns_renderer *renderer, const char *folder, mns_error *error);
 /* Messages of medium or high severity that the driver's debug output gave so far (0 where it gives none), and
  * the last. */
 MNS_API size_t mns_renderer_messages(const mns_renderer *renderer, const char **last);
@@ -430,8 +445,9 @@ MNS_API mns_status mns_renderer_draw(mns_renderer *renderer, const mns_field *fi
 /* Begins what the next draw of `field` by these options can have made ahead, on a thread of its own: the tree
  * of fbvh and bvh; of other methods nothing. Call it before the draw of the frame before, so that the tree is
  * built while that frame is drawn (Gourmel et al. 2010, figure 7). The field must stay as it is until it is
- * drawn, or the renderer is destroyed. A field prepared and then drawn with options.moved is not built again.
- * Errors: USAGE, MEMORY; what building comes to is told by the draw. */
+ * drawn, or the renderer is destroyed, or, with NULL for a field, this has ended what was begun. A field
+ * prepared and then drawn with options.moved is not built again. Errors: USAGE, MEMORY; what building comes
+ * to is told by the draw. */
 MNS_API mns_status mns_renderer_prepare(mns_renderer *renderer, const mns_field *field,
                                         const mns_options *options, mns_error *error);
 
@@ -616,6 +632,8 @@ typedef struct mns_scene {
     mns_input_options field;
     mns_view view;
     mns_look look;
+    mns_options draw; /* method, solver and samples */
+    int frame;        /* of the input; 0: the first */
 } mns_scene;
 
 /* Loads a JSON scene; keys: README.md. Errors: IO, INPUT (syntax with line and column; an unknown key or a

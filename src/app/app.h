@@ -28,5 +28,6 @@ int app_render(int argc, char **argv);
 int app_info(int argc, char **argv);
 int app_compare(int argc, char **argv);
 int app_verify(int argc, char **argv);
+int app_view(int argc, char **argv);
 
 #endif

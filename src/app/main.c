@@ -11,6 +11,7 @@ typedef struct command {
 
 static const command COMMANDS[] = {
     {"render", "draw particles to an image, or a sequence of them", app_render},
+    {"view", "look at particles in a window", app_view},
     {"compare", "draw by several methods: their errors against their times", app_compare},
     {"verify", "solve random pixels of a drawing again: is the picture right?", app_verify},
     {"info", "say what an input holds, or what OpenGL offers here", app_info},

@@ -4,8 +4,7 @@
 
 static const char *method_name(int i)
 {
-    static const char *const names[] = {"auto", "list", "reference", "tile", "fbvh", "bvh"};
-    return names[i];
+    return mns_method_name((mns_method)i);
 }
 
 mns_status option_method(app_options *o, const char *name, const char *text, mns_error *error)
@@ -18,8 +17,7 @@ mns_status option_method(app_options *o, const char *name, const char *text, mns
 
 static const char *solver_name(int i)
 {
-    static const char *const names[] = {"exact", "cubic", "cubic-monomial", "secant"};
-    return names[i];
+    return mns_solver_name((mns_solver)i);
 }
 
 mns_status option_solver(app_options *o, const char *name, const char *text, mns_error *error)

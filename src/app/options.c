@@ -168,6 +168,9 @@ static mns_status take_names(command_line *line, app_options *o, mns_error *erro
         o->field = o->scene->field;
         o->view = o->scene->view;
         o->look = o->scene->look;
+        o->draw = o->scene->draw;
+        o->frames = (parse_frames_range){
+            .given = o->scene->frame > 0, .first = o->scene->frame, .last = o->scene->frame, .step = 1};
         o->inputs = o->scene->inputs;
         o->input_count = o->scene->input_count;
         o->range_is_scenes = o->look.set & MNS_LOOK_RANGE;
@@ -175,6 +178,7 @@ static mns_status take_names(command_line *line, app_options *o, mns_error *erro
     if (kept) {
         o->inputs = line->names;
         o->input_count = kept;
+        o->frames = (parse_frames_range){0}; /* the scene's is one of its own input's */
     }
     return MNS_OK;
 }

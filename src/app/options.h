@@ -6,6 +6,7 @@
 #include "app/parse.h"
 #include "compare/images.h"
 #include "meniscus.h"
+#include "window/window.h"
 
 enum { APP_LIGHTS = 32 };
 
@@ -29,15 +30,18 @@ typedef struct app_options {
     const char *runs; /* compare; NULL: the default ones */
     int timed_frames; /* compare */
     bool no_cache;
-    const char *suite;          /* compare; NULL: none */
-    const char *suite_case;     /* of it, those whose name matches; NULL: all */
-    bool quick;                 /* of it, without the heavy ones */
-    images_tolerance tolerance; /* compare of two images */
-    unsigned tolerance_set;     /* which of it were given */
-    long rays, seed;            /* verify */
-    bool range_is_scenes;       /* look.range comes from the scene, and holds for its color_by only */
-    bool help;                  /* was asked for and printed: nothing more to do */
-    mns_scene *scene;           /* of a .json argument */
+    const char *suite;             /* compare; NULL: none */
+    const char *suite_case;        /* of it, those whose name matches; NULL: all */
+    bool quick;                    /* of it, without the heavy ones */
+    images_tolerance tolerance;    /* compare of two images */
+    unsigned tolerance_set;        /* which of it were given */
+    long rays, seed;               /* verify */
+    window_context window_context; /* view */
+    const char *script, *glsl;     /* view; NULL: none */
+    bool no_panel;                 /* view */
+    bool range_is_scenes;          /* look.range comes from the scene, and holds for its color_by only */
+    bool help;                     /* was asked for and printed: nothing more to do */
+    mns_scene *scene;              /* of a .json argument */
     const char **names;
     const char **given; /* the options that were given, "size" and so on, in their order */
     size_t given_count;

@@ -118,6 +118,12 @@ static bool column_range(const mns_field *field, const char *name, double range[
     return false;
 }
 
+void render_fix_look(const mns_field *first, mns_look *look)
+{
+    if (look->color_by && !(look->set & MNS_LOOK_RANGE) && column_range(first, look->color_by, look->range))
+        look->set |= MNS_LOOK_RANGE;
+}
+
 /* Camera and colour range are those of the input's frame 0, whichever frames are drawn: a frame is the same
  * picture in whatever run it is drawn. */
 static mns_status fix_view(render_job *job, mns_error *error)
@@ -133,8 +139,7 @@ static mns_status fix_view(render_job *job, mns_error *error)
     if (status) return status;
     render_note_field(o->input_count == 1 ? o->inputs[0] : "the first frame", job->kept);
     job->look = o->look;
-    if (wants_range && column_range(job->kept, job->look.color_by, job->look.range))
-        job->look.set |= MNS_LOOK_RANGE;
+    if (wants_range) render_fix_look(job->kept, &job->look);
     status = mns_view_resolve(&o->view, job->kept, &job->view, error);
     if (job->kept_index == job->first) return status;
     mns_field_destroy(job->kept);

@@ -62,6 +62,8 @@ static void count_pixels(truth_planes *p)
 static mns_status trace_row(const truth_desc *desc, const mns_reference *reference, int y, truth_planes *p,
                             mns_error *error)
 {
+    if (desc->stop && atomic_load(desc->stop))
+        return status_fail(error, MNS_ERROR_USAGE, "tracing the truth: stopped");
     for (int x = 0; x < p->width; x++) {
         size_t i = (size_t)y * (size_t)p->width + (size_t)x;
         double direction[3];

@@ -5,6 +5,8 @@
 
 #include "meniscus.h"
 
+#include <stdatomic.h>
+
 enum { TRUTH_HASH_SIZE = 33 }; /* 128 bits in hexadecimal, with its end */
 
 /* Planes, row 0 at the top, width * height values each (x 3 for normal, x 4 for rgba). What a truth does not
@@ -36,6 +38,7 @@ typedef struct truth_desc {
     /* NULL, or called from one thread as rows end, and at the last. */
     void (*progress)(void *context, int done, int rows);
     void *context;
+    const atomic_bool *stop; /* NULL, or becomes true when the truth is no longer wanted: then USAGE, soon */
 } truth_desc;
 
 /* Traces, or finds, the truth. A cached file that does not fit in every byte is thrown away. Errors: USAGE,

@@ -168,3 +168,9 @@ bool mns_field_get_column(const mns_field *field, size_t index, mns_column_info 
     };
     return true;
 }
+
+double mns_field_value(const mns_field *field, size_t index, size_t ball)
+{
+    if (index >= field->p.column_count || ball >= field->p.count) return NAN;
+    return field->p.column[index].value[ball];
+}

@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 #include "base/status.h"
-#include "gl/glsl_text.h"
+#include "gl/reload.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -27,18 +27,18 @@ static void text_append(text *t, const char *data, size_t size)
     t->data[t->size] = '\0';
 }
 
-static const char *find_file(const char *name, size_t length)
+static const char *find_file(const glsl_text *texts, const char *name, size_t length)
 {
-    for (const glsl_text *file = glsl_texts; file->name; file++)
+    for (const glsl_text *file = texts; file->name; file++)
         if (strlen(file->name) == length && memcmp(file->name, name, length) == 0) return file->text;
     return NULL;
 }
 
 /* Appends a file, its lines `#include "other.glsl"` replaced by that file's text. */
-static void append_file(text *t, const char *name, size_t length, int depth)
+static void append_file(text *t, const glsl_text *texts, const char *name, size_t length, int depth)
 {
     static const char directive[] = "#include \"";
-    const char *line = depth < 8 ? find_file(name, length) : NULL;
+    const char *line = depth < 8 ? find_file(texts, name, length) : NULL;
     if (!line) {
         t->failed = true;
         return;
@@ -48,7 +48,7 @@ static void append_file(text *t, const char *name, size_t length, int depth)
         end = end ? end + 1 : line + strlen(line);
         if (strncmp(line, directive, sizeof directive - 1) == 0) {
             const char *from = line + sizeof directive - 1;
-            append_file(t, from, strcspn(from, "\"\n"), depth + 1);
+            append_file(t, texts, from, strcspn(from, "\"\n"), depth + 1);
         } else if (*line != '\n') {
             text_append(t, line, (size_t)(end - line));
         }
@@ -56,18 +56,23 @@ static void append_file(text *t, const char *name, size_t length, int depth)
     }
 }
 
-char *glsl_assemble(const char *file, const char *defines)
+static char *assemble(const glsl_text *texts, const char *file, const char *defines)
 {
     text t = {0};
     static const char version[] = "#version 430 core\n";
     text_append(&t, version, sizeof version - 1);
     text_append(&t, defines, strlen(defines));
-    append_file(&t, file, strlen(file), 0);
+    append_file(&t, texts, file, strlen(file), 0);
     if (t.failed) {
         free(t.data);
         return NULL;
     }
     return t.data;
+}
+
+char *glsl_assemble(const char *file, const char *defines)
+{
+    return assemble(glsl_texts, file, defines);
 }
 
 /* One stage of a program. */
@@ -133,8 +138,8 @@ static mns_status make(gl_device *device, gl_binaries *binaries, const program_s
     return status;
 }
 
-static mns_status build(gl_device *device, gl_binaries *binaries, const gl_shader *shader, GLuint *id,
-                        mns_error *error)
+mns_status gl_program_build(gl_device *device, gl_binaries *binaries, const glsl_text *texts,
+                            const gl_shader *shader, GLuint *id, mns_error *error)
 {
     program_stage stage[STAGES] = {{GL_VERTEX_SHADER, shader->vertex, NULL},
                                    {GL_FRAGMENT_SHADER, shader->fragment, NULL},
@@ -142,7 +147,7 @@ static mns_status build(gl_device *device, gl_binaries *binaries, const gl_shade
     mns_status status = MNS_OK;
     for (int i = 0; i < STAGES && !status; i++) {
         if (!stage[i].file) continue;
-        stage[i].source = glsl_assemble(stage[i].file, shader->defines);
+        stage[i].source = assemble(texts ? texts : glsl_texts, stage[i].file, shader->defines);
         if (!stage[i].source) status = status_no_memory(error, "while assembling a shader");
     }
     if (!status) status = make(device, binaries, stage, id, error);
@@ -181,7 +186,7 @@ mns_status gl_program_get(gl_device *device, gl_programs *programs, const gl_sha
         goto done;
     }
     programs->item = item;
-    status = build(device, &programs->binaries, shader, id, error);
+    status = gl_program_build(device, &programs->binaries, programs->texts, shader, id, error);
     if (status) goto done;
     programs->item[programs->count++] = (gl_program){key, *id};
     return MNS_OK;
@@ -197,5 +202,6 @@ void gl_programs_free(gl_device *device, gl_programs *programs)
         free(programs->item[i].key);
     }
     free(programs->item);
+    glsl_texts_free(programs->texts);
     *programs = (gl_programs){0};
 }

@@ -16,8 +16,6 @@ static const char *const feature_names[FEATURE_COUNT] = {
     [41] = "occlusion",  [42] = "environment",  [43] = "sky",        [44] = "rays",
 };
 
-static const char *const solver_names[] = {"exact", "cubic", "cubic-monomial", "secant"};
-
 /* The numbers of the effects that are there. */
 static void print_effects(FILE *out, const mns_plan *plan)
 {
@@ -52,7 +50,7 @@ static void print_plan(FILE *out, const mns_plan *plan, const mns_field *field)
             : plan->features & FEATURE_TREE     ? "fbvh"
             : plan->features & FEATURE_TILES    ? "tile"
                                                 : "list",
-            plan->method_reason, solver_names[plan->options.solver], mns_kernel_name(field->kernel),
+            plan->method_reason, mns_solver_name(plan->options.solver), mns_kernel_name(field->kernel),
             field->iso);
     fprintf(out, "frame %dx%d, eye %g,%g,%g, look-at %g,%g,%g, fov %g\n", v->width, v->height, v->eye[0],
             v->eye[1], v->eye[2], v->look_at[0], v->look_at[1], v->look_at[2], v->fov);

@@ -36,6 +36,12 @@ static mns_status check_options(const mns_options *options, mns_error *error)
     if (options->samples < 0 || options->samples > 64)
         return status_fail(error, MNS_ERROR_USAGE, "options: %d samples a pixel; take 1 to 64",
                            options->samples);
+    int samples = options->samples ? options->samples : 1;
+    if (options->sample_first < 0 || options->sample_count < 0 || options->sample_first >= samples ||
+        options->sample_count > samples - options->sample_first)
+        return status_fail(error, MNS_ERROR_USAGE,
+                           "options: %d samples from %d on; of %d there are no such ones",
+                           options->sample_count, options->sample_first, samples);
     if (options->draws < 0)
         return status_fail(error, MNS_ERROR_USAGE, "options: %d draws; take 0 or more", options->draws);
     if (options->slots < 0 || options->slots > 1024)
@@ -64,6 +70,7 @@ mns_status plan_options(const mns_options *options, const mns_field *field, mns_
     mns_status status = check_options(o, error);
     if (status) return status;
     if (!o->samples) o->samples = 1;
+    if (!o->sample_count) o->sample_count = o->samples - o->sample_first;
     if (!o->slots) o->slots = default_slots(o, &plan->limits);
     if (!o->root_steps) o->root_steps = 48;
     if (!o->secant_steps) o->secant_steps = 16;

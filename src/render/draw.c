@@ -189,16 +189,22 @@ static mns_status shade_sample(draw *d, int sample, const double jitter[2], mns_
 /* Samples beside the centre only make colour; the planes are the centre's, drawn last. */
 static mns_status draw_samples(draw *d, mns_error *error)
 {
-    int samples = d->plan->options.samples;
+    const mns_options *o = &d->plan->options;
+    int samples = o->samples, end = o->sample_first + o->sample_count;
     double jitter[2];
     mns_status status = MNS_OK;
-    for (int i = 0; i < samples && samples > 1 && !status; i++) {
+    for (int i = o->sample_first; i < end && samples > 1 && !status; i++) {
         list_jitter(i, samples, jitter);
         d->sample = i;
         status = draw_sample(d, jitter, error);
         if (!status) status = shade_sample(d, i, jitter, error);
     }
     if (status) return status;
+    d->frame->summed = end;
+    if (end < samples) {
+        d->stats->ms_total = clock_ms() - d->stats->ms_total - d->stats->ms[MNS_PHASE_SHADE];
+        return MNS_OK;
+    }
     memset(&d->stats->fallbacks, 0, sizeof d->stats->fallbacks);
     d->stats->tiles = d->stats->list_nodes = d->stats->pixels_hit = d->stats->pixels_undecided = 0;
     d->lengths.count = 0;
@@ -251,6 +257,19 @@ static mns_status draw_all(draw *d, mns_error *error)
     return status ? status : gl_check(&r->device, "drawing", error);
 }
 
+/* Samples are added to those before them alone. */
+static mns_status check_sum(const mns_frame *frame, const mns_plan *plan, mns_error *error)
+{
+    int first = plan->options.sample_first;
+    bool fits = frame->plan && frame->summed == first &&
+                frame->plan->options.samples == plan->options.samples && frame->width == plan->frame.width &&
+                frame->height == plan->frame.height;
+    if (!first || fits) return MNS_OK;
+    return status_fail(error, MNS_ERROR_USAGE,
+                       "draw: sample %d is added to those before it, and the frame has %d", first,
+                       frame->plan ? frame->summed : 0);
+}
+
 static mns_status draw_frame(mns_renderer *r, const mns_field *field, const mns_view *view,
                              const mns_look *look, const mns_options *options, const mns_target *target,
                              mns_frame *frame, mns_error *error)
@@ -262,10 +281,16 @@ static mns_status draw_frame(mns_renderer *r, const mns_field *field, const mns_
     mns_status status =
         plan_make(field, view, look, options, &r->device.limits, target != NULL, &plan, error);
     if (status) return status;
+    status = check_sum(frame, plan, error);
+    if (status) {
+        mns_plan_destroy(plan);
+        return status;
+    }
     mns_plan_destroy(frame->plan);
     frame->plan = plan;
     mns_target own = target ? *target : (mns_target){0}; /* its clip planes in the field's unit */
     own.near /= plan->unit, own.far /= plan->unit;
+    frame->summed = 0; /* until it is drawn */
     draw d = {.r = r,
               .field = field,
               .plan = plan,

@@ -9,7 +9,6 @@
 
 void draw_stats_start(draw *d)
 {
-    static const char *const solvers[] = {"exact", "cubic", "cubic-monomial", "secant"};
     const mns_plan *plan = d->plan;
     mns_stats *stats = d->stats;
     *stats = (mns_stats){0};
@@ -17,7 +16,7 @@ void draw_stats_start(draw *d)
     bool tiles = plan->features & FEATURE_TILES;
     bool tree = plan->features & FEATURE_TREE, overlaps = plan->features & FEATURE_OVERLAPS;
     stats->method = traced ? "reference" : overlaps ? "bvh" : tree ? "fbvh" : tiles ? "tile" : "list";
-    stats->solver = solvers[plan->options.solver];
+    stats->solver = mns_solver_name(plan->options.solver);
     stats->gather = traced || tiles || tree                    ? "none"
                     : plan->options.gather == MNS_GATHER_PAPER ? "paper"
                                                                : "early-z";

@@ -61,6 +61,7 @@ struct mns_frame {
     GLuint settled; /* and 1, or 0 where some ray beyond it was undecided */
     GLuint planes_target, shaded_target;
     int width, height;
+    int summed; /* samples that its colours hold; 0 where they are nobody's */
     bool has_color, has_work, has_lit;
     float *t_error; /* bound on the error of each distance, row 0 at the top; NULL where the method gives none
                      */

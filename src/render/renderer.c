@@ -1,4 +1,5 @@
 #include "base/status.h"
+#include "gl/reload.h"
 #include "render/render.h"
 
 #include <stdlib.h>
@@ -22,6 +23,17 @@ mns_status mns_renderer_create(mns_get_proc get_proc, mns_renderer **renderer, m
 void mns_renderer_keep_programs(mns_renderer *renderer, const char *folder)
 {
     gl_binaries_open(&renderer->device, &renderer->programs.binaries, folder);
+}
+
+mns_status mns_renderer_read_shaders(mns_renderer *r, const char *folder, mns_error *error)
+{
+    glsl_text *texts;
+    if (!r || !folder) return status_fail(error, MNS_ERROR_USAGE, "shaders: renderer or folder is NULL");
+    mns_status status = glsl_texts_read(folder, &texts, error);
+    if (status) return status;
+    status = gl_programs_reload(&r->device, &r->programs, texts, error);
+    if (status) glsl_texts_free(texts);
+    return status;
 }
 
 void mns_renderer_destroy(mns_renderer *r)

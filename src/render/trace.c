@@ -159,7 +159,11 @@ mns_status draw_tree_sample(draw *d, mns_error *error)
 mns_status mns_renderer_prepare(mns_renderer *r, const mns_field *field, const mns_options *options,
                                 mns_error *error)
 {
-    if (!r || !field) return status_fail(error, MNS_ERROR_USAGE, "prepare: renderer or field is NULL");
+    if (!r) return status_fail(error, MNS_ERROR_USAGE, "prepare: the renderer is NULL");
+    if (!field) {
+        trace_worker_settle(&r->worker);
+        return MNS_OK;
+    }
     mns_options asked = options ? *options : (mns_options){0};
     asked.method = plan_required(&asked).method;
     if (asked.method != MNS_METHOD_FBVH && asked.method != MNS_METHOD_BVH) return MNS_OK;

@@ -10,30 +10,19 @@
 /* ---- Numbers
  * ------------------------------------------------------------------------------------------------ */
 
-static mns_status read_whole(scene_reader *r, const char *key, const json_t *value, int least, int most,
-                             int *to)
-{
-    char expected[80];
-    json_int_t number = json_is_integer(value) ? json_integer_value(value) : -1;
-    snprintf(expected, sizeof expected, "a whole number from %d to %d", least, most);
-    if (number < least || number > most) return scene_wrong(r, key, value, expected);
-    *to = (int)number;
-    return MNS_OK;
-}
-
 static mns_status read_levels(scene_reader *r, const char *key, const json_t *value, void *target)
 {
-    return read_whole(r, key, value, 0, 8, target);
+    return scene_read_whole(r, key, value, 0, 8, target);
 }
 
 static mns_status read_surfaces(scene_reader *r, const char *key, const json_t *value, void *target)
 {
-    return read_whole(r, key, value, 0, 16, target);
+    return scene_read_whole(r, key, value, 0, 16, target);
 }
 
 static mns_status read_rays(scene_reader *r, const char *key, const json_t *value, void *target)
 {
-    return read_whole(r, key, value, 0, 4096, target);
+    return scene_read_whole(r, key, value, 0, 4096, target);
 }
 
 static mns_status read_share(scene_reader *r, const char *key, const json_t *value, void *target)
@@ -140,7 +129,7 @@ static mns_status read_shadows(scene_reader *r, const char *key, const json_t *v
 {
     mns_effects *e = target;
     e->shadows = true;
-    if (json_is_integer(value)) return read_whole(r, key, value, 1, 4096, &e->shadow_samples);
+    if (json_is_integer(value)) return scene_read_whole(r, key, value, 1, 4096, &e->shadow_samples);
     if (!json_is_boolean(value))
         return scene_wrong(r, key, value, "true, false, or a whole number of samples from 1 to 4096");
     e->shadows = json_is_true(value);

@@ -143,6 +143,10 @@ static const scene_key SCENE_KEYS[] = {
     {PART("material", read_material)},
     {KEY_SET("background", scene_read_background, look.background, look.set, MNS_LOOK_BACKGROUND)},
     {PART("size", scene_read_size)},
+    {KEY("frame", scene_read_frame, frame)},
+    {KEY("method", scene_read_method, draw.method)},
+    {KEY("solver", scene_read_solver, draw.solver)},
+    {KEY("samples", scene_read_samples, draw.samples)},
 };
 
 mns_status scene_read_keys(const json_t *root, const char *path, scene_file *file, mns_error *error)

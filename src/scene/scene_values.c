@@ -3,6 +3,7 @@
 #include "base/status.h"
 #include "scene/view.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -148,6 +149,27 @@ mns_status scene_read_bands(scene_reader *r, const char *key, const json_t *valu
     return MNS_OK;
 }
 
+mns_status scene_read_whole(scene_reader *r, const char *key, const json_t *value, int least, int most,
+                            int *to)
+{
+    char expected[80];
+    json_int_t number = json_is_integer(value) ? json_integer_value(value) : -1;
+    snprintf(expected, sizeof expected, "a whole number from %d to %d", least, most);
+    if (number < least || number > most) return scene_wrong(r, key, value, expected);
+    *to = (int)number;
+    return MNS_OK;
+}
+
+mns_status scene_read_samples(scene_reader *r, const char *key, const json_t *value, void *target)
+{
+    return scene_read_whole(r, key, value, 1, 64, target);
+}
+
+mns_status scene_read_frame(scene_reader *r, const char *key, const json_t *value, void *target)
+{
+    return scene_read_whole(r, key, value, 0, INT_MAX, target);
+}
+
 mns_status scene_read_size(scene_reader *r, const char *key, const json_t *value, void *target)
 {
     static const char expected[] = "a list of two whole numbers from 1 to 65536, width and height";
@@ -233,6 +255,32 @@ mns_status scene_read_shading(scene_reader *r, const char *key, const json_t *va
     int index = 0;
     mns_status status = read_name(r, key, value, shading_name, MNS_SHADING_CEL + 1, &index);
     if (!status) *(mns_shading *)target = (mns_shading)index;
+    return status;
+}
+
+static const char *method_name(int i)
+{
+    return mns_method_name((mns_method)i);
+}
+
+static const char *solver_name(int i)
+{
+    return mns_solver_name((mns_solver)i);
+}
+
+mns_status scene_read_method(scene_reader *r, const char *key, const json_t *value, void *target)
+{
+    int index = 0;
+    mns_status status = read_name(r, key, value, method_name, MNS_METHOD_BVH + 1, &index);
+    if (!status) *(mns_method *)target = (mns_method)index;
+    return status;
+}
+
+mns_status scene_read_solver(scene_reader *r, const char *key, const json_t *value, void *target)
+{
+    int index = 0;
+    mns_status status = read_name(r, key, value, solver_name, MNS_SOLVER_SECANT + 1, &index);
+    if (!status) *(mns_solver *)target = (mns_solver)index;
     return status;
 }
 

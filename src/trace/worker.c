@@ -65,6 +65,11 @@ mns_status trace_worker_take(trace_worker *worker, const mns_field *field, const
     return status ? status : fbvh_build(worker->builder, field, options, tree, error);
 }
 
+void trace_worker_settle(trace_worker *worker)
+{
+    wait_for_it(worker);
+}
+
 void trace_worker_free(trace_worker *worker)
 {
     wait_for_it(worker);

@@ -37,6 +37,8 @@ mns_status trace_worker_begin(trace_worker *worker, const mns_field *field, cons
  * as fbvh_build. */
 mns_status trace_worker_take(trace_worker *worker, const mns_field *field, const fbvh_options *options,
                              const fbvh_tree **tree, mns_error *error);
+/* Waits for what is being built, so that its field may go. */
+void trace_worker_settle(trace_worker *worker);
 void trace_worker_free(trace_worker *worker);
 
 #endif

@@ -14,7 +14,7 @@ options() {
     grep -o -e '--[a-z][a-z-]*' | sort -u
 }
 
-help=$(for command in render compare verify info; do "$program" $command --help; done | options)
+help=$(for command in render view compare verify info; do "$program" $command --help; done | options)
 told=$(options <README.md)
 for option in $help; do
     echo "$told" | grep -qx -e "$option" || complain "$option is not in it"

@@ -1,0 +1,50 @@
+# The window of `meniscus view`: an archive on the public API, GLFW and, for the panel, Dear ImGui.
+set(MENISCUS_PANEL AUTO CACHE STRING "the window's panel, which needs Dear ImGui and C++: ON, OFF or AUTO (where they are there)")
+file(GLOB MNS_WINDOW_SOURCES CONFIGURE_DEPENDS src/window/*.c)
+if(GLFW_FOUND)
+  list(FILTER MNS_WINDOW_SOURCES EXCLUDE REGEX "window_missing\\.c$")
+else()
+  set(MNS_WINDOW_SOURCES src/window/window_missing.c)
+endif()
+
+# C++ is asked for only where it has something to do: the fuzzers and mixed sanitizers do without.
+set(MNS_HAS_PANEL OFF)
+if(MENISCUS_PANEL AND GLFW_FOUND AND NOT MNS_FUZZ)
+  pkg_check_modules(IMGUI IMPORTED_TARGET imgui)
+  include(CheckLanguage)
+  check_language(CXX)
+  if(IMGUI_FOUND AND CMAKE_CXX_COMPILER)
+    enable_language(CXX)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL CMAKE_C_COMPILER_ID OR NOT MNS_SANITIZE)
+      set(MNS_HAS_PANEL ON)
+    endif()
+  endif()
+  if(NOT MNS_HAS_PANEL AND NOT MENISCUS_PANEL STREQUAL "AUTO")
+    message(FATAL_ERROR "MENISCUS_PANEL needs Dear ImGui (Debian: libimgui-dev) and a C++ compiler of the C compiler's kind")
+  endif()
+endif()
+if(MNS_HAS_PANEL)
+  list(FILTER MNS_WINDOW_SOURCES EXCLUDE REGEX "panel_missing\\.c$")
+  list(APPEND MNS_WINDOW_SOURCES src/window/panel.cpp)
+endif()
+message(STATUS "window: ${GLFW_FOUND}, panel: ${MNS_HAS_PANEL}")
+
+set(MNS_WINDOW_TEXT ${CMAKE_BINARY_DIR}/window_glsl_text.c)
+file(GLOB MNS_WINDOW_GLSL CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/glsl/window/*.glsl)
+list(APPEND MNS_WINDOW_GLSL ${CMAKE_SOURCE_DIR}/glsl/screen.vert.glsl ${CMAKE_SOURCE_DIR}/glsl/color.glsl)
+add_custom_command(
+  OUTPUT ${MNS_WINDOW_TEXT}
+  COMMAND embed_glsl ${MNS_WINDOW_TEXT} window_glsl_texts ${MNS_WINDOW_GLSL}
+  DEPENDS embed_glsl ${MNS_WINDOW_GLSL}
+  COMMENT "embedding glsl/window/")
+
+add_library(meniscus_window STATIC ${MNS_WINDOW_SOURCES} ${MNS_WINDOW_TEXT})
+target_include_directories(meniscus_window PUBLIC ${CMAKE_SOURCE_DIR}/src)
+target_link_libraries(meniscus_window PUBLIC mns_flags meniscus_compare glad PkgConfig::JANSSON Threads::Threads m)
+if(GLFW_FOUND)
+  target_link_libraries(meniscus_window PUBLIC PkgConfig::GLFW)
+endif()
+if(MNS_HAS_PANEL)
+  target_link_libraries(meniscus_window PRIVATE PkgConfig::IMGUI)
+  set_source_files_properties(src/window/panel.cpp PROPERTIES COMPILE_OPTIONS "-std=c++17;-fno-exceptions;-fno-rtti")
+endif()

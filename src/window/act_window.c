@@ -1,0 +1,160 @@
+/* Actions of sequences, of the window and of scripts. */
+#include "window/action.h"
+
+#include "base/clock.h"
+#include "base/status.h"
+#include "window/keys.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+mns_status action_play(viewer *v, const words *w, mns_error *error)
+{
+    (void)w, (void)error;
+    subject_play(v, !v->timeline.playing);
+    return MNS_OK;
+}
+
+mns_status action_pause_it(viewer *v, const words *w, mns_error *error)
+{
+    (void)w, (void)error;
+    subject_play(v, false);
+    return MNS_OK;
+}
+
+mns_status action_step(viewer *v, const words *w, mns_error *error)
+{
+    (void)error;
+    long from = v->wanted >= 0 ? v->wanted : v->timeline.shown;
+    subject_go(v, from + (long)w->number[0]);
+    return MNS_OK;
+}
+
+mns_status action_frame(viewer *v, const words *w, mns_error *error)
+{
+    (void)error;
+    subject_go(v, (long)w->number[0]);
+    return MNS_OK;
+}
+
+mns_status action_speed(viewer *v, const words *w, mns_error *error)
+{
+    (void)error;
+    timeline_speed(&v->timeline, v->timeline.speed * w->number[0], clock_ms());
+    viewer_tell(v, "speed %g: %g frames a second", v->timeline.speed, v->timeline.speed * v->timeline.rate);
+    return MNS_OK;
+}
+
+mns_status action_loop(viewer *v, const words *w, mns_error *error)
+{
+    (void)w, (void)error;
+    v->timeline.loops = !v->timeline.loops;
+    viewer_tell(v,
+                v->timeline.loops ? "the sequence begins again at its end" : "the sequence stops at its end");
+    return MNS_OK;
+}
+
+/* ---- The window
+ * ------------------------------------------------------------------------------------------------------- */
+
+mns_status action_size(viewer *v, const words *w, mns_error *error)
+{
+    int width = (int)w->number[0], height = (int)w->number[1];
+    if (!(width > 0 && height > 0 && width <= 16384 && height <= 16384))
+        return status_fail(error, MNS_ERROR_USAGE, "size %.40s: expected two numbers from 1 to 16384",
+                           w->text);
+    glfwSetWindowSize(v->window, (int)(width / v->dots), (int)(height / v->dots));
+    v->script.until_ms = clock_ms() + 300; /* the window system takes its time */
+    return MNS_OK;
+}
+
+mns_status action_save(viewer *v, const words *w, mns_error *error)
+{
+    return save_as(v, *w->text ? w->text : "meniscus.png", error);
+}
+
+mns_status action_grab(viewer *v, const words *w, mns_error *error)
+{
+    mns_status status = drawing_finish(v, error);
+    if (status) return status;
+    viewer_present(v);
+    status = screen_grab(&v->screen, v->width, v->height, w->text, error);
+    if (!status) viewer_tell(v, "saved the window as %.400s", w->text);
+    return status;
+}
+
+mns_status action_copy(viewer *v, const words *w, mns_error *error)
+{
+    (void)w;
+    return save_copy(v, error);
+}
+
+mns_status action_reload(viewer *v, const words *w, mns_error *error)
+{
+    (void)w;
+    mns_status status = MNS_OK;
+    if (!v->desc->glsl)
+        return status_fail(error, MNS_ERROR_USAGE,
+                           "no folder of shaders was named: open the window with --glsl DIR");
+    for (int i = 0; i < SIDES && !status; i++)
+        status = mns_renderer_read_shaders(v->side[i].renderer, v->desc->glsl, error);
+    if (status) return status;
+    viewer_tell(v, "read the shaders of %.200s again", v->desc->glsl);
+    drawing_change(v, false);
+    return MNS_OK;
+}
+
+mns_status action_panel_toggle(viewer *v, const words *w, mns_error *error)
+{
+    (void)w;
+    if (v->panel)
+        viewer_close_panel(v);
+    else if (!viewer_open_panel(v))
+        return status_fail(error, MNS_ERROR_UNSUPPORTED,
+                           "this build has no panel (it needs Dear ImGui); keys do it all: ?");
+    v->stale = true;
+    return MNS_OK;
+}
+
+mns_status action_help(viewer *v, const words *w, mns_error *error)
+{
+    (void)w, (void)error;
+    viewer_help(v);
+    return MNS_OK;
+}
+
+mns_status action_quit(viewer *v, const words *w, mns_error *error)
+{
+    (void)w, (void)error;
+    v->closing = true;
+    return MNS_OK;
+}
+
+mns_status action_key(viewer *v, const words *w, mns_error *error)
+{
+    const key_row *row = key_named(w->text);
+    if (!row) return status_fail(error, MNS_ERROR_USAGE, "key %.40s: it stands for nothing", w->text);
+    return action_run(v, row->action, error);
+}
+
+mns_status action_rest(viewer *v, const words *w, mns_error *error)
+{
+    (void)w, (void)error;
+    v->script.rests = true;
+    return MNS_OK;
+}
+
+mns_status action_sleep_ms(viewer *v, const words *w, mns_error *error)
+{
+    (void)error;
+    v->script.until_ms = clock_ms() + w->number[0];
+    return MNS_OK;
+}
+
+mns_status action_tell(viewer *v, const words *w, mns_error *error)
+{
+    (void)error;
+    viewer_tell(v, "%.400s: drew %zu, showed %zu, frame %ld, dropped %ld, %dx%d", w->text, v->draws, v->shows,
+                v->timeline.shown, v->timeline.dropped, v->width, v->height);
+    return MNS_OK;
+}

@@ -1,0 +1,225 @@
+/* The picture on its way: coarse while it moves, whole when it rests, and then sample by sample. */
+#include "base/clock.h"
+#include "window/viewer.h"
+
+#include <math.h>
+#include <string.h>
+
+/* How long a camera rests before the picture is drawn whole. */
+static const double REST_MS = 150;
+
+mns_status drawing_begin(viewer *v, mns_error *error)
+{
+    for (int i = 0; i < SIDES; i++) {
+        side *s = &v->side[i];
+        mns_status status = mns_renderer_create(v->get_proc, &s->renderer, error);
+        if (!status && v->settings->no_cache) mns_renderer_keep_programs(s->renderer, NULL);
+        if (!status) status = mns_frame_create(s->renderer, &s->frame, error);
+        if (status) return status;
+    }
+    pace_begin(&v->pace, mns_renderer_limits(v->side[0].renderer)->is_software);
+    return MNS_OK;
+}
+
+void drawing_end(viewer *v)
+{
+    for (int i = 0; i < SIDES; i++) {
+        mns_frame_destroy(v->side[i].frame);
+        mns_renderer_destroy(v->side[i].renderer);
+    }
+    memset(v->side, 0, sizeof v->side);
+}
+
+int drawing_sides(const viewer *v)
+{
+    return v->compare == COMPARE_OFF ? 1 : 2;
+}
+
+mns_options drawing_options(const viewer *v, int which)
+{
+    mns_options options = which ? v->other : v->settings->draw;
+    options.samples = v->settings->draw.samples ? v->settings->draw.samples : 1;
+    options.measure = v->panel && panel_measures(v->panel);
+    return options;
+}
+
+mns_view drawing_view(const viewer *v)
+{
+    mns_view view = {.width = v->width, .height = v->height};
+    camera_put(&v->camera, &view);
+    return view;
+}
+
+void drawing_change(viewer *v, bool moves)
+{
+    v->stage = STAGE_CHANGED;
+    v->difference.is_known = false;
+    v->hover.is_known = false;
+    check_forget(&v->check);
+    if (moves) v->moved_ms = clock_ms();
+}
+
+/* ---- One bit of it
+ * ----------------------------------------------------------------------------------------------------- */
+
+static mns_status draw_side(viewer *v, int i, const mns_view *view, const mns_options *options,
+                            mns_error *error)
+{
+    side *s = &v->side[i];
+    double start = clock_ms();
+    mns_status status = mns_renderer_draw(s->renderer, v->field, view, &v->look, options, s->frame, error);
+    v->screen.gl.Finish();
+    s->ms = clock_ms() - start;
+    s->is_drawn = !status;
+    s->samples = options->samples;
+    s->sum = options->sample_count ? options->sample_first + options->sample_count : options->samples;
+    return status;
+}
+
+/* All sides: samples from `first` on, `count` of them, at a part of the window's size. */
+static mns_status draw(viewer *v, double scale, int samples, int first, mns_error *error)
+{
+    mns_view view = drawing_view(v);
+    if (scale < 1) {
+        view.width = pace_size(&v->pace, v->width);
+        view.height = pace_size(&v->pace, v->height);
+    }
+    mns_status status = MNS_OK;
+    for (int i = 0; i < drawing_sides(v) && !status; i++) {
+        mns_options options = drawing_options(v, i);
+        options.samples = samples;
+        options.sample_first = first;
+        options.sample_count = samples > 1;
+        status = draw_side(v, i, &view, &options, error);
+    }
+    v->stale = true;
+    v->draws++;
+    if (!status && v->on_trial) {
+        v->on_trial = false;
+        v->desc->host.keep(v->desc->host.context);
+    }
+    return status;
+}
+
+static double drawn_ms(const viewer *v)
+{
+    double ms = 0;
+    for (int i = 0; i < drawing_sides(v); i++) ms += v->side[i].ms;
+    return ms;
+}
+
+/* The picture is whole. */
+static void finish(viewer *v)
+{
+    v->stage = STAGE_DONE;
+    if (v->compare != COMPARE_OFF) divider_count(v);
+}
+
+/* One sample of the whole picture; the first of them is the pixels' centre. */
+static mns_status draw_sample(viewer *v, int first, mns_error *error)
+{
+    int samples = drawing_options(v, 0).samples;
+    mns_status status = draw(v, 1, samples, first, error);
+    if (status || first + 1 >= samples)
+        finish(v);
+    else
+        v->stage = STAGE_SUMMED;
+    return status;
+}
+
+static mns_status draw_moving(viewer *v, mns_error *error)
+{
+    double scale = pace_scale(&v->pace);
+    mns_status status = draw(v, scale, 1, 0, error);
+    if (status)
+        v->stage = STAGE_DONE;
+    else
+        v->stage = STAGE_COARSE;
+    pace_drawn(&v->pace, drawn_ms(v));
+    return status;
+}
+
+static mns_status step(viewer *v, bool moving, mns_error *error)
+{
+    switch (v->stage) {
+    case STAGE_DONE:
+        return MNS_OK;
+    case STAGE_CHANGED:
+        return moving ? draw_moving(v, error) : draw_sample(v, 0, error);
+    case STAGE_COARSE:
+        return moving ? MNS_OK : draw_sample(v, 0, error);
+    case STAGE_SUMMED:
+        return moving ? MNS_OK : draw_sample(v, v->side[0].sum, error);
+    }
+    return MNS_OK;
+}
+
+mns_status drawing_step(viewer *v, double *again_ms, mns_error *error)
+{
+    double rest = v->moved_ms + REST_MS - clock_ms();
+    bool waits = v->held || v->timeline.playing, moving = waits || rest > 0;
+    *again_ms = INFINITY;
+    if (!v->field) return MNS_OK;
+    mns_status status = step(v, moving, error);
+    if (v->stage != STAGE_DONE && !(moving && waits)) *again_ms = moving ? rest : 0;
+    return status;
+}
+
+mns_status drawing_finish(viewer *v, mns_error *error)
+{
+    mns_status status = MNS_OK;
+    while (v->stage != STAGE_DONE && !status) status = step(v, false, error);
+    return status;
+}
+
+/* ---- On the window
+ * ----------------------------------------------------------------------------------------------------- */
+
+static screen_picture picture_of(const side *s)
+{
+    screen_picture p = {.frame = s->is_drawn ? s->frame : NULL, .gain = 1, .t_unit = 1};
+    if (!s->is_drawn) return p;
+    if (s->sum > 0) p.gain = (double)s->samples / s->sum;
+    p.t_unit = mns_frame_stats(s->frame)->t_unit;
+    return p;
+}
+
+static screen_mode mode_of(const viewer *v)
+{
+    if (v->compare == COMPARE_DIVIDER) return SCREEN_DIVIDER;
+    if (v->compare == COMPARE_DIFFERENCE) return SCREEN_DIFFERENCE;
+    return v->compare == COMPARE_FLICKER && v->flicker_b ? SCREEN_B : SCREEN_A;
+}
+
+void drawing_show(viewer *v)
+{
+    const side *a = &v->side[0], *b = &v->side[1];
+    screen_desc desc = {.a = picture_of(a),
+                        .mode = b->is_drawn ? mode_of(v) : SCREEN_A,
+                        .width = v->width,
+                        .height = v->height,
+                        .place = v->place * v->width,
+                        .line = 2,
+                        .scale = divider_scale(v)};
+    if (drawing_sides(v) > 1) desc.b = picture_of(b);
+    desc.smooth = a->is_drawn && mns_frame_stats(a->frame)->width != v->width;
+    screen_show(&v->screen, &desc);
+    v->shows++;
+    v->stale = false;
+}
+
+bool drawing_point(viewer *v, double x, double y, vec3 *point)
+{
+    const side *s = &v->side[0];
+    if (!s->is_drawn) return false;
+    const mns_stats *stats = mns_frame_stats(s->frame);
+    double t =
+        screen_distance(&v->screen, s->frame, stats->width, stats->height,
+                        (int)floor(x * stats->width / v->width), (int)floor(y * stats->height / v->height));
+    if (!isfinite(t)) return false;
+    mns_view view = drawing_view(v);
+    double direction[3];
+    mns_view_ray(&view, floor(x) + 0.5, floor(y) + 0.5, direction);
+    *point = vec3_along(v->camera.eye, t * stats->t_unit, vec3_load(direction));
+    return true;
+}

@@ -1,0 +1,430 @@
+/* The GLFW window: opened, waited on, closed. All else is in the parts that viewer.h names. */
+#include "window/viewer.h"
+
+#include "base/clock.h"
+#include "base/status.h"
+#include "window/keys.h"
+#include "window/panel_fill.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double FLICKER_MS = 400;
+
+/* ---- Telling
+ * ----------------------------------------------------------------------------------------------------------
+ */
+
+void viewer_tell(viewer *v, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(v->status, sizeof v->status, format, arguments);
+    va_end(arguments);
+    v->desc->host.tell(v->desc->host.context, v->status);
+    v->stale = true;
+}
+
+void viewer_tell_error(viewer *v, const mns_error *error)
+{
+    viewer_tell(v, "error: %s", error->text);
+}
+
+void viewer_wake(void)
+{
+    glfwPostEmptyEvent();
+}
+
+static void show_title(viewer *v)
+{
+    char title[sizeof v->title];
+    const side *a = &v->side[0], *b = &v->side[1];
+    const char *input = v->settings->input_count ? v->settings->inputs[0] : "";
+    const char *slash = strrchr(input, '/');
+    size_t used = (size_t)snprintf(title, sizeof title, "%.60s", slash ? slash + 1 : input);
+    if (v->timeline.frames > 1 && used < sizeof title)
+        used += (size_t)snprintf(title + used, sizeof title - used, " [%ld/%ld]", v->timeline.shown,
+                                 v->timeline.frames - 1);
+    if (a->is_drawn && used < sizeof title)
+        used += (size_t)snprintf(title + used, sizeof title - used, " - %s %s %.1f ms",
+                                 mns_frame_stats(a->frame)->method, mns_frame_stats(a->frame)->solver, a->ms);
+    if (v->compare != COMPARE_OFF && b->is_drawn && used < sizeof title)
+        used += (size_t)snprintf(title + used, sizeof title - used, " | %s %.1f ms", v->other_name, b->ms);
+    if (v->compare != COMPARE_OFF && v->difference.is_known && used < sizeof title)
+        used +=
+            (size_t)snprintf(title + used, sizeof title - used, ": %zu pixels differ", v->difference.pixels);
+    if (*v->status && used < sizeof title)
+        snprintf(title + used, sizeof title - used, " - %.100s",
+                 v->hover.is_on && *v->hover.text ? v->hover.text : v->status);
+    if (strcmp(title, v->title) == 0) return;
+    memcpy(v->title, title, sizeof title);
+    glfwSetWindowTitle(v->window, title);
+}
+
+void viewer_present(viewer *v)
+{
+    drawing_show(v);
+    if (v->panel) panel_fill(v);
+}
+
+static void present(viewer *v)
+{
+    mns_error error;
+    viewer_present(v);
+    if (screen_check(&v->screen, "putting the picture on the window", &error)) viewer_tell_error(v, &error);
+    glfwSwapBuffers(v->window);
+    show_title(v);
+    v->stale = false;
+}
+
+void viewer_resize(viewer *v, int width, int height)
+{
+    if (width < 1 || height < 1 || (width == v->width && height == v->height))
+        return; /* 0: it is iconified */
+    v->width = width;
+    v->height = height;
+    drawing_change(v, true);
+}
+
+/* ---- The panel
+ * -------------------------------------------------------------------------------------------------------- */
+
+static void act(void *context, const char *line)
+{
+    action_do(context, line);
+}
+
+/* The keys in lines, for the caller to free. */
+static char *keys_text(void)
+{
+    static const char mouse[] = "drag: orbit; with shift, or the right button: pan; with ctrl: look around\n"
+                                "wheel: zoom to the cursor; double click: centre; W A S D Q E: fly\n";
+    size_t size = sizeof mouse, used;
+    const key_row *row;
+    for (int i = 0; (row = key_at(i)); i++) size += strlen(row->name) + strlen(row->doc) + 16;
+    char *text = malloc(size);
+    if (!text) return NULL;
+    used = (size_t)snprintf(text, size, "%s", mouse);
+    for (int i = 0; (row = key_at(i)); i++)
+        used += (size_t)snprintf(text + used, size - used, "%-9s %s\n", row->name, row->doc);
+    return text;
+}
+
+bool viewer_open_panel(viewer *v)
+{
+    if (v->desc->context == WINDOW_OSMESA)
+        return false; /* ImGui finds its own OpenGL, which is another one */
+    const panel_desc desc = {.window = v->window, .act = act, .context = v, .help = v->keys};
+    v->panel = panel_open(&desc);
+    v->polish = 3;
+    return v->panel != NULL;
+}
+
+void viewer_close_panel(viewer *v)
+{
+    panel_close(v->panel);
+    v->panel = NULL;
+    v->stale = true;
+}
+
+void viewer_help(viewer *v)
+{
+    if (v->panel || viewer_open_panel(v))
+        panel_help(v->panel, true);
+    else if (v->keys)
+        v->desc->host.tell(v->desc->host.context, v->keys);
+    v->polish = 3;
+}
+
+/* ---- What GLFW tells
+ * -------------------------------------------------------------------------------------------------- */
+
+static bool mouse_is_taken(const viewer *v)
+{
+    return v->panel && !v->drag && panel_takes_mouse(v->panel);
+}
+
+static void on_size(GLFWwindow *window, int width, int height)
+{
+    viewer_resize(glfwGetWindowUserPointer(window), width, height);
+}
+
+static void on_refresh(GLFWwindow *window)
+{
+    viewer *v = glfwGetWindowUserPointer(window);
+    v->stale = true;
+}
+
+static void on_button(GLFWwindow *window, int button, int action, int mods)
+{
+    viewer *v = glfwGetWindowUserPointer(window);
+    v->polish = 2;
+    if (!mouse_is_taken(v)) events_press(v, button, action == GLFW_PRESS, mods);
+}
+
+static void on_cursor(GLFWwindow *window, double x, double y)
+{
+    viewer *v = glfwGetWindowUserPointer(window);
+    v->polish = 2;
+    if (!mouse_is_taken(v)) events_move(v, x * v->dots, y * v->dots);
+}
+
+static void on_scroll(GLFWwindow *window, double x, double y)
+{
+    viewer *v = glfwGetWindowUserPointer(window);
+    (void)x;
+    v->polish = 2;
+    if (!mouse_is_taken(v)) events_scroll(v, y);
+}
+
+static void on_key(GLFWwindow *window, int key, int code, int action, int mods)
+{
+    viewer *v = glfwGetWindowUserPointer(window);
+    (void)code;
+    v->polish = 2;
+    if (action != GLFW_RELEASE && !(v->panel && panel_takes_keys(v->panel))) events_key(v, key, mods);
+}
+
+static void on_drop(GLFWwindow *window, int count, const char **paths)
+{
+    viewer *v = glfwGetWindowUserPointer(window);
+    mns_error error;
+    if (settings_open(v, paths, (size_t)count, &error))
+        viewer_tell_error(v, &error);
+    else
+        viewer_tell(v, "opened %.400s", paths[0]);
+}
+
+bool viewer_flies(const viewer *v, double way[3])
+{
+    static const int keys[3][2] = {
+        {GLFW_KEY_D, GLFW_KEY_A}, {GLFW_KEY_E, GLFW_KEY_Q}, {GLFW_KEY_W, GLFW_KEY_S}};
+    bool flies = false;
+    if (v->panel && panel_takes_keys(v->panel)) return false;
+    if (glfwGetKey(v->window, GLFW_KEY_LEFT_CONTROL) || glfwGetKey(v->window, GLFW_KEY_RIGHT_CONTROL))
+        return false;
+    for (int i = 0; i < 3; i++) {
+        way[i] = glfwGetKey(v->window, keys[i][0]) - glfwGetKey(v->window, keys[i][1]);
+        flies = flies || way[i] != 0;
+    }
+    return flies;
+}
+
+/* ---- Opening
+ * ----------------------------------------------------------------------------------------------------------
+ */
+
+static void hint(const viewer *v, int minor)
+{
+    static const int api[] = {GLFW_NATIVE_CONTEXT_API, GLFW_EGL_CONTEXT_API, GLFW_OSMESA_CONTEXT_API};
+    glfwDefaultWindowHints();
+    glfwWindowHint(GLFW_CONTEXT_CREATION_API, api[v->desc->context]);
+    if (minor < 0) {
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+        return;
+    }
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, minor);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+}
+
+/* What the driver has, where it has no 4.3. */
+static mns_status too_old(viewer *v, const char *reason, mns_error *error)
+{
+    hint(v, -1);
+    GLFWwindow *any = glfwCreateWindow(16, 16, "meniscus", NULL, NULL);
+    char found[160] = "no OpenGL at all";
+    if (any) {
+        glfwMakeContextCurrent(any);
+        typedef const unsigned char *get_string(unsigned name);
+        get_string *string = (get_string *)glfwGetProcAddress("glGetString");
+        const unsigned name_version = 0x1F02, name_renderer = 0x1F01;
+        if (string)
+            snprintf(found, sizeof found, "OpenGL %.60s (%.80s)", string(name_version),
+                     string(name_renderer));
+        glfwDestroyWindow(any);
+    }
+    return status_fail(
+        error, MNS_ERROR_GL,
+        "no window: it needs OpenGL 4.3, and %s was found (%.120s); \"meniscus render\" draws to a file",
+        found, reason);
+}
+
+static mns_status open_window(viewer *v, mns_error *error)
+{
+    const char *reason = NULL;
+    const mns_view *asked = &v->settings->view;
+    int width = asked->width ? asked->width : 1024, height = asked->height ? asked->height : 768;
+    if (!glfwInit()) {
+        glfwGetError(&reason);
+        return status_fail(error, MNS_ERROR_GL,
+                           "no window: %.200s; \"meniscus render\" draws to a file without one",
+                           reason ? reason : "GLFW does not start");
+    }
+    char first[160] = "no reason given";
+    for (int minor = 6; minor >= 3 && !v->window; minor--) {
+        hint(v, minor);
+        v->window = glfwCreateWindow(width, height, "meniscus", NULL, NULL);
+        if (!v->window && glfwGetError(&reason) && reason) snprintf(first, sizeof first, "%s", reason);
+    }
+    if (!v->window) return too_old(v, first, error);
+    glfwMakeContextCurrent(v->window);
+    glfwSwapInterval(1);
+    int units;
+    glfwGetFramebufferSize(v->window, &v->width, &v->height);
+    glfwGetWindowSize(v->window, &units, NULL);
+    v->dots = units > 0 ? (double)v->width / units : 1;
+    v->get_proc = glfwGetProcAddress;
+    return MNS_OK;
+}
+
+static void listen(viewer *v)
+{
+    glfwSetWindowUserPointer(v->window, v);
+    glfwSetFramebufferSizeCallback(v->window, on_size);
+    glfwSetWindowRefreshCallback(v->window, on_refresh);
+    glfwSetMouseButtonCallback(v->window, on_button);
+    glfwSetCursorPosCallback(v->window, on_cursor);
+    glfwSetScrollCallback(v->window, on_scroll);
+    glfwSetKeyCallback(v->window, on_key);
+    glfwSetDropCallback(v->window, on_drop);
+}
+
+static mns_status open_all(viewer *v, mns_error *error)
+{
+    mns_status status = v->desc->script ? script_read(&v->script, v->desc->script, error) : MNS_OK;
+    if (!status) status = open_window(v, error);
+    if (!status) status = screen_open(&v->screen, v->get_proc, error);
+    if (!status) status = drawing_begin(v, error);
+    if (!status) status = divider_other(v, "list:exact", error);
+    if (!status) status = subject_open(v, true, error);
+    if (status) return status;
+    listen(v);
+    const int roomy = 800; /* units, below which the panel would hide the picture */
+    if (v->desc->panel && v->width >= roomy * v->dots) viewer_open_panel(v);
+    return MNS_OK;
+}
+
+/* What the driver complained of, for a report of the fault. */
+static void tell_messages(viewer *v)
+{
+    for (int i = 0; i < SIDES; i++) {
+        const char *last;
+        size_t count = v->side[i].renderer ? mns_renderer_messages(v->side[i].renderer, &last) : 0;
+        if (count) viewer_tell(v, "the driver gave %zu messages; the last: %.360s", count, last);
+    }
+}
+
+static void close_all(viewer *v)
+{
+    check_stop(&v->check);
+    tell_messages(v);
+    panel_close(v->panel);
+    subject_close(v);
+    drawing_end(v);
+    screen_close(&v->screen);
+    script_free(&v->script);
+    free(v->keys);
+    if (v->window) glfwDestroyWindow(v->window);
+    glfwTerminate();
+}
+
+/* ---- The loop
+ * ---------------------------------------------------------------------------------------------------------
+ */
+
+/* The next lines of the script, until one waits. Errors: as the action's, with the script's line. */
+static mns_status run_script(viewer *v, mns_error *error)
+{
+    script *s = &v->script;
+    while (s->next && !v->closing) {
+        mns_error why;
+        if (s->rests && (v->stage != STAGE_DONE || v->stale || v->wanted >= 0 || v->check.running))
+            return MNS_OK;
+        if (clock_ms() < s->until_ms) return MNS_OK;
+        s->rests = false;
+        const char *line = script_next(s);
+        if (!line) return MNS_OK;
+        mns_status status = action_run(v, line, &why);
+        /* What a hand would be told, a script is told; what no hand could do ends it. */
+        if (status && status != MNS_ERROR_USAGE) viewer_tell_error(v, &why);
+        if (status == MNS_ERROR_USAGE)
+            return status_fail(error, status, "%.100s:%zu: %.340s", s->path, s->line, why.text);
+    }
+    return MNS_OK;
+}
+
+/* How long the window may sleep, milliseconds: INFINITY where only a hand wakes it. */
+static double turn(viewer *v, mns_status *status, mns_error *error)
+{
+    double now = clock_ms(), again, wait;
+    mns_error why;
+    *status = run_script(v, error);
+    if (*status) return 0;
+    bool flies = events_fly(v);
+    wait = subject_step(v);
+    if (drawing_step(v, &again, &why)) {
+        viewer_tell_error(v, &why);
+        settings_refused(v);
+        again = 0;
+    }
+    wait = fmin(flies ? 0 : wait, again);
+    check_tell(v);
+    events_hover(v);
+    if (v->compare == COMPARE_FLICKER) {
+        if (now - v->flicker_ms > FLICKER_MS) {
+            v->flicker_b = !v->flicker_b;
+            v->flicker_ms = now;
+            v->stale = true;
+        }
+        wait = fmin(wait, FLICKER_MS - (now - v->flicker_ms));
+    }
+    if (v->panel && v->polish > 0) {
+        v->polish--;
+        v->stale = true;
+        wait = 0;
+    }
+    if (v->stale) present(v);
+    if (v->script.next) wait = fmin(wait, v->script.until_ms > now ? v->script.until_ms - now : 0);
+    return v->stale ? 0 : wait;
+}
+
+static mns_status loop(viewer *v, mns_error *error)
+{
+    mns_status status = MNS_OK;
+    while (!v->closing && !glfwWindowShouldClose(v->window)) {
+        double wait = turn(v, &status, error);
+        if (status) break;
+        if (wait <= 0)
+            glfwPollEvents();
+        else if (isfinite(wait))
+            glfwWaitEventsTimeout(wait * 1e-3 + 1e-4);
+        else
+            glfwWaitEvents();
+    }
+    return status;
+}
+
+mns_status window_run(const window_desc *desc, mns_error *error)
+{
+    viewer *v = calloc(1, sizeof *v);
+    if (!v) return status_no_memory(error, "opening a window");
+    v->desc = desc;
+    v->settings = desc->host.settings(desc->host.context);
+    v->keys = keys_text();
+    v->place = 0.5;
+    v->wanted = -1;
+    mns_status status = open_all(v, error);
+    if (!status) status = loop(v, error);
+    close_all(v);
+    free(v);
+    return status;
+}
