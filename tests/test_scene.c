@@ -207,6 +207,23 @@ static void background_can_be_written_in_each_way(void **state)
     }
 }
 
+static void how_it_is_drawn_can_be_said(void **state)
+{
+    (void)state;
+    static const char text[] = "{\"frame\": 7, \"method\": \"fbvh\", \"solver\": \"secant\", \"samples\": 9}";
+    mns_scene *s = parse(text);
+    assert_int_equal(s->frame, 7);
+    assert_int_equal(s->draw.method, MNS_METHOD_FBVH);
+    assert_int_equal(s->draw.solver, MNS_SOLVER_SECANT);
+    assert_int_equal(s->draw.samples, 9);
+    mns_scene_destroy(s);
+    refuse("{\"samples\": 65}", MNS_ERROR_INPUT, "s.json: samples: 65: expected a whole number from 1 to 64");
+    refuse("{\"frame\": -1}", MNS_ERROR_INPUT,
+           "s.json: frame: -1: expected a whole number from 0 to 2147483647");
+    refuse("{\"method\": \"lists\"}", MNS_ERROR_INPUT,
+           "s.json: method: \"lists\": expected one of auto list reference tile fbvh bvh");
+}
+
 static void unknown_keys_are_named_by_their_path(void **state)
 {
     (void)state;
@@ -215,7 +232,7 @@ static void unknown_keys_are_named_by_their_path(void **state)
     refuse("{\"colour\": 1}", MNS_ERROR_INPUT,
            "s.json: colour: unknown key; known: field, input, inputs, camera, light, lights, look, effects, "
            "material, background, "
-           "size");
+           "size, frame, method, solver, samples");
     refuse("{\"camera\": {\"\": 1}}", MNS_ERROR_INPUT,
            "s.json: camera.: unknown key; known: eye, look_at, up, fov");
 }
@@ -372,6 +389,7 @@ int main(void)
         cmocka_unit_test(effects_reach_their_members),
         cmocka_unit_test(wrong_lights_and_effects_are_named),
         cmocka_unit_test(background_can_be_written_in_each_way),
+        cmocka_unit_test(how_it_is_drawn_can_be_said),
         cmocka_unit_test(unknown_keys_are_named_by_their_path),
         cmocka_unit_test(wrong_values_are_named_with_what_was_expected),
         cmocka_unit_test(syntax_errors_carry_line_and_column),
