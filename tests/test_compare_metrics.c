@@ -98,6 +98,70 @@ static void distances_are_taken_over_the_larger_of_t_and_radius(void **state)
     planes_free(&p);
 }
 
+/* Planes of terms for a truth and an image, that agree: nothing met, all certain. */
+typedef struct term_planes {
+    float of[2][TRUTH_TERMS + 1][6];
+} term_planes;
+
+static void give_terms(planes *p, term_planes *t)
+{
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < 6; i++) {
+            t->of[k][TRUTH_SHADOW][i] = t->of[k][TRUTH_OCCLUSION][i] = t->of[k][TRUTH_TERMS][i] = 1;
+            t->of[k][TRUTH_MIRROR][i] = t->of[k][TRUTH_REFRACTION][i] = INFINITY;
+        }
+    for (int i = 0; i < TRUTH_TERMS; i++) p->truth->term[i] = t->of[0][i];
+    p->truth->effects_certain = t->of[0][TRUTH_TERMS];
+    p->image->shadow = t->of[1][TRUTH_SHADOW];
+    p->image->occlusion = t->of[1][TRUTH_OCCLUSION];
+    p->image->mirror_t = t->of[1][TRUTH_MIRROR];
+    p->image->refract_t = t->of[1][TRUTH_REFRACTION];
+    p->image->effects_certain = t->of[1][TRUTH_TERMS];
+}
+
+static void take_terms(planes *p)
+{
+    for (int i = 0; i < TRUTH_TERMS; i++) p->truth->term[i] = NULL;
+    p->truth->effects_certain = NULL;
+    p->image->shadow = p->image->occlusion = p->image->mirror_t = p->image->refract_t = NULL;
+    p->image->effects_certain = NULL;
+}
+
+static void wrong_terms_of_effects_are_counted(void **state)
+{
+    (void)state;
+    term_planes t;
+    char why[256];
+    const images_tolerance none = {1, 1, 0}, some = {1, 1, 5};
+    planes p = planes_make(6, 1);
+    assert_false(measure(&p).effects.any);
+    for (size_t i = 0; i < 5; i++) planes_hit(&p, i, 2, 0);
+    give_terms(&p, &t);
+    metrics m = measure(&p);
+    assert_true(m.effects.any && m.effects.compared == 5 && m.effects.undecided == 0);
+    assert_true(images_judge(&none, 0, &m, why, sizeof why));
+    t.of[1][TRUTH_SHADOW][0] = 0.75F; /* one ray of four */
+    t.of[1][TRUTH_OCCLUSION][1] = 1 - 1e-5F;
+    t.of[1][TRUTH_MIRROR][0] = 3;                                  /* invented */
+    t.of[0][TRUTH_MIRROR][1] = 3, t.of[1][TRUTH_MIRROR][1] = 3.2F; /* another surface: R is 1 */
+    t.of[0][TRUTH_MIRROR][2] = 3, t.of[1][TRUTH_MIRROR][2] = 3.05F;
+    t.of[0][TRUTH_REFRACTION][3] = 1;                          /* missed */
+    t.of[1][TRUTH_SHADOW][4] = 0, t.of[1][TRUTH_TERMS][4] = 0; /* not certain */
+    t.of[1][TRUTH_SHADOW][5] = 0;                              /* no hit */
+    m = measure(&p);
+    assert_int_equal(m.effects.compared, 4);
+    assert_int_equal(m.effects.undecided, 1);
+    const size_t wrong[TRUTH_TERMS] = {1, 0, 2, 1};
+    for (int i = 0; i < TRUTH_TERMS; i++) assert_int_equal(m.effects.wrong[i], wrong[i]);
+    assert_false(images_judge(&none, 0, &m, why, sizeof why));
+    assert_non_null(strstr(why, "2 mirror"));
+    assert_true(images_judge(&some, 0, &m, why, sizeof why));
+    p.image->occlusion = NULL; /* a term that is not drawn is wrong everywhere */
+    assert_int_equal(measure(&p).effects.wrong[TRUTH_OCCLUSION], 4);
+    take_terms(&p);
+    planes_free(&p);
+}
+
 static void the_low_word_of_t_counts(void **state)
 {
     (void)state;
@@ -370,6 +434,7 @@ int main(void)
         cmocka_unit_test(no_hit_in_common_leaves_no_figures),
         cmocka_unit_test(masks_are_counted_apart_from_the_undecided),
         cmocka_unit_test(distances_are_taken_over_the_larger_of_t_and_radius),
+        cmocka_unit_test(wrong_terms_of_effects_are_counted),
         cmocka_unit_test(the_low_word_of_t_counts),
         cmocka_unit_test(footprints_grow_with_distance_and_view),
         cmocka_unit_test(what_the_truth_leaves_open_is_no_error),

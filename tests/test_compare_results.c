@@ -54,6 +54,8 @@ static void make_runs(run_result run[3])
                        .wrong_root = 2,
                        .undecided = 1,
                        .compared = 50};
+        m->effects = (metrics_effects){.any = i == 0, .compared = 40, .undecided = 3};
+        m->effects.has[TRUTH_SHADOW] = i == 0, m->effects.wrong[TRUTH_SHADOW] = 8;
         m->t = m->footprint = m->normal = spread;
         m->residual = none;
         m->psnr = i ? 42.5 : METRICS_PSNR_MOST;
@@ -202,6 +204,10 @@ static void csv_has_a_row_a_run(void **state)
     assert_string_equal(FIELD(2, "ms_cast"), "");
     assert_string_equal(FIELD(2, "hits"), "61");
     assert_string_equal(FIELD(1, "wrong_root"), "2");
+    assert_string_equal(FIELD(1, "shadow_wrong"), "8");
+    assert_string_equal(FIELD(1, "mirror_wrong"), "");
+    assert_string_equal(FIELD(1, "effects_undecided"), "3");
+    assert_string_equal(FIELD(2, "shadow_wrong"), "");
     assert_string_equal(FIELD(2, "t_p99"), "0.001");
     assert_string_equal(FIELD(1, "normal_rms"), "5e-07");
     assert_string_equal(FIELD(1, "residual_max"), "");

@@ -70,6 +70,9 @@ const meniscus = {
         ['missed', 'Missed pixels, all'], ['invented', 'Invented pixels, all'],
         ['wrong_root', 'Wrong root, pixels'], ['undecided', 'Undecided pixels'],
     ];
+    /* Terms of effects, those that some run has. */
+    page.terms = ['shadow', 'occlusion', 'mirror', 'refraction'].map((term) => [`${term}_wrong`, `wrong ${term}`])
+        .filter(([key]) => page.runs.some((run) => isNumber(run.errors?.[key])));
     page.spreads = SPREADS;
     page.parts = PARTS;
 

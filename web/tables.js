@@ -27,6 +27,7 @@
             count('invented', 'invented', 'invented_decided'),
             count('wrong root', 'wrong_root'),
             count('undecided', 'undecided'),
+            ...page.terms.map(([key, text]) => ({ ...count(text, key), name: (run) => some(run.errors?.[key]) })),
             { text: 'PSNR, dB', value: (run) => run.errors?.psnr,
                 cell: (run) => run.errors?.psnr >= 200 ? 'equal' : page.number(run.errors?.psnr) },
             ...page.parts.map(([part, text]) => ({

@@ -43,6 +43,17 @@ mns_status compare_write(const json_t *document, const picture_list *pictures, c
     return MNS_OK;
 }
 
+static void print_effects(const metrics_effects *e)
+{
+    const char *before = "; wrong of effects: ";
+    for (truth_term term = 0; term < TRUTH_TERMS; term++)
+        if (e->has[term]) {
+            printf("%s%zu %s", before, e->wrong[term], metrics_term_name(term));
+            before = ", ";
+        }
+    if (e->any) printf(", %zu undecided", e->undecided);
+}
+
 void compare_print(const run_result *run)
 {
     const metrics *m = &run->errors;
@@ -57,6 +68,7 @@ void compare_print(const run_result *run)
            m->invented_decided, m->wrong_root, m->undecided);
     if (m->compared)
         printf(", t p99 %.2g, max %.2g, normal p99 %.2g degrees", m->t.p99, m->t.max, m->normal.p99);
+    print_effects(&m->effects);
     putchar('\n');
     fflush(stdout);
 }

@@ -9,6 +9,13 @@ size_t images_mask_errors(const truth_planes *truth, const mns_image *image, con
     return m->missed_decided + m->invented_decided + undecided;
 }
 
+static size_t wrong_terms(const metrics_effects *e)
+{
+    size_t wrong = 0;
+    for (int i = 0; i < TRUTH_TERMS; i++) wrong += e->wrong[i];
+    return wrong;
+}
+
 bool images_judge(const images_tolerance *tolerance, size_t mask_errors, const metrics *m, char *why,
                   size_t size)
 {
@@ -31,6 +38,12 @@ bool images_judge(const images_tolerance *tolerance, size_t mask_errors, const m
     else if (m->normal.max > tolerance->normal)
         snprintf(why, size, "a normal is off by %.3g degrees (at most %.3g)", m->normal.max,
                  tolerance->normal);
+    else if (wrong_terms(&m->effects) > tolerance->mask)
+        snprintf(why, size,
+                 "effects are wrong: %zu pixels of the shadow, %zu occlusion, %zu mirror, %zu refraction (at "
+                 "most %zu)",
+                 m->effects.wrong[TRUTH_SHADOW], m->effects.wrong[TRUTH_OCCLUSION],
+                 m->effects.wrong[TRUTH_MIRROR], m->effects.wrong[TRUTH_REFRACTION], tolerance->mask);
     else
         return true;
     return false;

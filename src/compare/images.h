@@ -7,7 +7,7 @@
 typedef struct images_tolerance {
     double t;      /* largest |t - t*| / t* */
     double normal; /* largest angle, degrees */
-    size_t mask;   /* pixels of images_mask_errors */
+    size_t mask;   /* pixels of images_mask_errors; wrong terms of effects */
 } images_tolerance;
 
 #define IMAGES_TOLERANCE_T      1e-5

@@ -301,6 +301,7 @@ mns_status metrics_measure(const truth_planes *truth, const mns_image *image, co
     mns_status status = measure_spreads(truth, image, reference, iso, &m, error);
     if (status) return status;
     count_masks(truth, image, &m);
+    m.effects = metrics_effects_of(truth, image);
     m.psnr = psnr(truth, image, m.pixels);
     find_worst(truth, image, &m);
     *result = m;

@@ -9,6 +9,11 @@ enum { METRICS_WORST = 20 };
 /* "Wrong root" is a distance off by more than METRICS_ROOT_RADII R_j + METRICS_ROOT_RELATIVE t*. */
 #define METRICS_ROOT_RADII    0.1
 #define METRICS_ROOT_RELATIVE 0x1p-20
+/* A term is wrong that is off by more than METRICS_TERM: less than one ray of many; a term that is a
+ * distance, one that is another surface's: by METRICS_ROOT_RADII R_j + METRICS_TERM_RELATIVE t*, or finite
+ * where it should not be. */
+#define METRICS_TERM          1e-4
+#define METRICS_TERM_RELATIVE 0x1p-10
 /* What the PSNR of equal images is given as, decibels. */
 #define METRICS_PSNR_MOST 200.0
 
@@ -17,6 +22,14 @@ typedef struct metrics_spread {
     double median, p99, p999, max;
     double rms; /* root of the mean square */
 } metrics_spread;
+
+/* Terms of effects, where the truth has any. */
+typedef struct metrics_effects {
+    bool any, has[TRUTH_TERMS];
+    size_t compared;           /* pixels that both hit, decided, with effects that both are certain of */
+    size_t undecided;          /* that the image calls uncertain */
+    size_t wrong[TRUTH_TERMS]; /* of the compared; all where the image lacks the term */
+} metrics_effects;
 
 typedef enum metrics_kind {
     METRICS_DEPTH = 0, /* both hit, the distances differ */
@@ -49,6 +62,7 @@ typedef struct metrics {
     metrics_spread footprint; /* |t - t*| in pixel footprints; NAN where the view is unknown */
     metrics_spread residual;  /* |f - L| / L at every hit of the image; NAN without a reference */
     metrics_spread normal;    /* angle between the normals, degrees */
+    metrics_effects effects;
     double psnr; /* decibels, METRICS_PSNR_MOST where equal; NAN where the truth has no colours */
     size_t worst_count;
     metrics_pixel worst[METRICS_WORST]; /* decided pixels, the worst first */
@@ -61,6 +75,11 @@ mns_status metrics_measure(const truth_planes *truth, const mns_image *image, co
 
 /* Sorts `count` values in place and takes their figures. */
 metrics_spread metrics_spread_of(double *value, size_t count);
+
+/* The terms' figures alone. */
+metrics_effects metrics_effects_of(const truth_planes *truth, const mns_image *image);
+/* "shadow", "occlusion", "mirror", "refraction". */
+const char *metrics_term_name(truth_term term);
 
 /* What every pixel is to the hit mask: the colours of the mask picture. */
 typedef enum metrics_mask {

@@ -39,6 +39,17 @@ static json_t *times(const run_times *ms)
                      "max", json_number(ms->max), "phases", phases);
 }
 
+static void put_effects(json_t *object, const metrics_effects *e)
+{
+    json_object_set_new(object, "effects_compared", e->any ? json_count(e->compared) : json_null());
+    json_object_set_new(object, "effects_undecided", e->any ? json_count(e->undecided) : json_null());
+    for (truth_term term = 0; term < TRUTH_TERMS; term++) {
+        char name[24];
+        snprintf(name, sizeof name, "%s_wrong", metrics_term_name(term));
+        json_object_set_new(object, name, e->has[term] ? json_count(e->wrong[term]) : json_null());
+    }
+}
+
 static json_t *errors(const metrics *m)
 {
     json_t *object = json_object();
@@ -51,6 +62,7 @@ static json_t *errors(const metrics *m)
     json_object_set_new(object, "wrong_root", json_count(m->wrong_root));
     json_object_set_new(object, "undecided", json_count(m->undecided));
     json_object_set_new(object, "compared", json_count(m->compared));
+    put_effects(object, &m->effects);
     json_object_set_new(object, "t", spread(&m->t));
     json_object_set_new(object, "footprint", spread(&m->footprint));
     json_object_set_new(object, "residual", spread(&m->residual));

@@ -9,7 +9,9 @@
  * "method", "solver", "settings": {KEY: "VALUE"}, "frames", "failed": null or the reason; where there is one,
  * ms and errors are null and worst is empty, "ms": {"median", "min", "max", "phases": {"sort": ms, ...}},
  * phases {} where not measured "errors": {"pixels", "hits", "missed", "invented", "missed_decided",
- * "invented_decided", "wrong_root", "undecided", "compared", "t", "footprint", "residual", "normal":
+ * "invented_decided", "wrong_root", "undecided", "compared", "effects_compared", "effects_undecided",
+ * "shadow_wrong", "occlusion_wrong", "mirror_wrong", "refraction_wrong" (null where the look has no such
+ * effect), "t", "footprint", "residual", "normal":
  * {"median", "p99", "p999", "max", "rms"}, "psnr"}, "pareto": bool, "worst": [{"x", "y", "kind", "t",
  * "truth", "error"}]}], "suite": null or {"name", "cases": [...]}}
  *

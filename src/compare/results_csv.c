@@ -9,9 +9,21 @@
 
 static const char *const SPREADS[] = {"t", "footprint", "residual", "normal"};
 static const char *const FIGURES[] = {"median", "p99", "p999", "max", "rms"};
-static const char *const COUNTS[] = {"pixels",     "hits",           "missed",
-                                     "invented",   "missed_decided", "invented_decided",
-                                     "wrong_root", "undecided",      "compared"};
+static const char *const COUNTS[] = {"pixels",
+                                     "hits",
+                                     "missed",
+                                     "invented",
+                                     "missed_decided",
+                                     "invented_decided",
+                                     "wrong_root",
+                                     "undecided",
+                                     "compared",
+                                     "effects_compared",
+                                     "effects_undecided",
+                                     "shadow_wrong",
+                                     "occlusion_wrong",
+                                     "mirror_wrong",
+                                     "refraction_wrong"};
 #define LENGTH(array) (sizeof(array) / sizeof *(array))
 
 static void write_header(FILE *file)

@@ -10,6 +10,16 @@
 #include <omp.h>
 #include <string.h>
 
+void truth_free_effects(truth_planes *planes)
+{
+    for (int i = 0; i < TRUTH_TERMS; i++) {
+        free(planes->term[i]);
+        planes->term[i] = NULL;
+    }
+    free(planes->effects_certain);
+    planes->effects_certain = NULL;
+}
+
 void truth_destroy(truth_planes *planes)
 {
     if (!planes) return;
@@ -19,6 +29,7 @@ void truth_destroy(truth_planes *planes)
     free(planes->radius);
     free(planes->certain);
     free(planes->rgba);
+    truth_free_effects(planes);
     free(planes);
 }
 
@@ -43,6 +54,44 @@ mns_status truth_allocate(int width, int height, bool radius, bool rgba, truth_p
         return status_no_memory(error, "making a truth");
     }
     *result = p;
+    return MNS_OK;
+}
+
+bool truth_allocate_effects(truth_planes *p, unsigned which)
+{
+    size_t pixels = (size_t)p->width * (size_t)p->height;
+    bool whole = true;
+    for (int i = 0; i <= TRUTH_TERMS && which; i++) {
+        float **plane = i < TRUTH_TERMS ? &p->term[i] : &p->effects_certain;
+        if (i < TRUTH_TERMS && !(which >> i & 1)) continue;
+        *plane = memory_array(pixels, sizeof **plane);
+        whole = whole && *plane;
+    }
+    return whole;
+}
+
+const float *truth_image_term(const mns_image *image, truth_term term)
+{
+    const float *const plane[TRUTH_TERMS] = {image->shadow, image->occlusion, image->mirror_t,
+                                             image->refract_t};
+    return plane[term];
+}
+
+/* The terms that the image has. */
+static mns_status copy_effects(const mns_image *image, truth_planes *p, mns_error *error)
+{
+    size_t size = (size_t)p->width * (size_t)p->height * sizeof(float);
+    unsigned which = 0;
+    for (int i = 0; i < TRUTH_TERMS; i++) which |= truth_image_term(image, i) ? 1u << i : 0;
+    if (!image->effects_certain || !which) return MNS_OK;
+    if (!truth_allocate_effects(p, which)) return status_no_memory(error, "making a truth");
+    memcpy(p->effects_certain, image->effects_certain, size);
+    const float unit = image->t_unit > 0 ? (float)image->t_unit : 1;
+    for (int i = 0; i < TRUTH_TERMS; i++) {
+        if (p->term[i]) memcpy(p->term[i], truth_image_term(image, i), size);
+        bool distance = i == TRUTH_MIRROR || i == TRUTH_REFRACTION;
+        for (size_t k = 0; p->term[i] && distance && k < size / sizeof(float); k++) p->term[i][k] *= unit;
+    }
     return MNS_OK;
 }
 
@@ -115,7 +164,7 @@ static mns_status trace(const truth_desc *desc, truth_planes *p, mns_error *erro
     return status;
 }
 
-/* The same view by the renderer's own reference, for its colours. */
+/* The same view by the renderer's own reference, for its colours and the terms of its effects. */
 static mns_status shade(const truth_desc *desc, truth_planes *p, mns_error *error)
 {
     mns_frame *frame = NULL;
@@ -127,6 +176,7 @@ static mns_status shade(const truth_desc *desc, truth_planes *p, mns_error *erro
             mns_renderer_draw(desc->renderer, desc->field, desc->view, desc->look, &options, frame, error);
     if (!status) status = mns_frame_read(frame, &image, error);
     if (!status) memcpy(p->rgba, image->rgba, (size_t)p->width * (size_t)p->height * 4 * sizeof *p->rgba);
+    if (!status) status = copy_effects(image, p, error);
     mns_image_destroy(image);
     mns_frame_destroy(frame);
     return status;
@@ -178,6 +228,11 @@ mns_status truth_from_image(const mns_image *image, truth_planes **result, mns_e
         for (int c = 0; c < 3; c++) p->normal[3 * i + (size_t)c] = image->normal[3 * i + (size_t)c];
     }
     if (p->rgba) memcpy(p->rgba, image->rgba, pixels * 4 * sizeof *p->rgba);
+    status = copy_effects(image, p, error);
+    if (status) {
+        truth_destroy(p);
+        return status;
+    }
     count_pixels(p);
     *result = p;
     return MNS_OK;

@@ -9,8 +9,17 @@
 
 enum { TRUTH_HASH_SIZE = 33 }; /* 128 bits in hexadecimal, with its end */
 
+/* What light does beyond a first hit, each a plane where the look has the effect. */
+typedef enum truth_term {
+    TRUTH_SHADOW = 0,
+    TRUTH_OCCLUSION,
+    TRUTH_MIRROR, /* distances, INFINITY where nothing is met */
+    TRUTH_REFRACTION,
+    TRUTH_TERMS
+} truth_term;
+
 /* Planes, row 0 at the top, width * height values each (x 3 for normal, x 4 for rgba). What a truth does not
- * know is NULL: radius, view and rgba may be. */
+ * know is NULL: radius, view, rgba, the terms of effects and their certainty may be. */
 typedef struct truth_planes {
     int width, height;
     double *t;        /* distance of the first hit; INFINITY on a miss */
@@ -19,6 +28,8 @@ typedef struct truth_planes {
     double *radius;   /* R_j of the ball with the largest |q|k at the hit; 0 on a miss */
     uint8_t *certain; /* 1, or 0 where undecided */
     float *rgba;      /* shaded, linear, premultiplied */
+    float *term[TRUTH_TERMS];
+    float *effects_certain; /* 1, or 0 where some ray beyond the first hit was undecided */
     bool has_view;
     mns_view view; /* resolved, where has_view */
     size_t hits, undecided;
@@ -27,6 +38,9 @@ typedef struct truth_planes {
     char hash[TRUTH_HASH_SIZE]; /* of all that it depends on; "" without */
     char note[200];             /* why the cache could not be used; "" where it was, or was not asked for */
 } truth_planes;
+
+/* The image's plane of that term, NULL where it has none. */
+const float *truth_image_term(const mns_image *image, truth_term term);
 
 /* What a truth is made of. */
 typedef struct truth_desc {

@@ -9,14 +9,15 @@
 /* The cache is let grow to this many bytes; a truth of 1024x768 pixels takes 51 MB. */
 #define CACHE_BYTES ((uint64_t)1 << 30)
 
-enum { PLANES = 6, FORMAT = 1 };
+enum { PLANES = 7 + TRUTH_TERMS, FORMAT = 2 };
 
 static const uint64_t MAGIC = 0x4854555254534e4du; /* "MNSTRUTH", read in this machine's order of bytes */
 
 /* In front of the planes. No gaps: it is written as it lies. */
 typedef struct cache_header {
     uint64_t magic;
-    uint32_t format, has_rgba;
+    uint32_t format;
+    uint16_t has_rgba, terms; /* bits: 1 << truth_term */
     int32_t width, height;
     char hash[TRUTH_HASH_SIZE - 1];
     double ms;
@@ -37,7 +38,17 @@ static size_t list_planes(const truth_planes *p, cache_plane list[PLANES])
     list[3] = (cache_plane){p->radius, pixels * sizeof *p->radius};
     list[4] = (cache_plane){p->certain, pixels * sizeof *p->certain};
     if (p->rgba) list[count++] = (cache_plane){p->rgba, 4 * pixels * sizeof *p->rgba};
+    for (int i = 0; i < TRUTH_TERMS; i++)
+        if (p->term[i]) list[count++] = (cache_plane){p->term[i], pixels * sizeof(float)};
+    if (p->effects_certain) list[count++] = (cache_plane){p->effects_certain, pixels * sizeof(float)};
     return count;
+}
+
+static unsigned terms_of(const truth_planes *p)
+{
+    unsigned which = 0;
+    for (int i = 0; i < TRUTH_TERMS; i++) which |= p->term[i] ? 1u << i : 0;
+    return which;
 }
 
 static uint64_t checksum_of(double ms, const cache_plane *list, size_t count)
@@ -55,15 +66,16 @@ static bool read_file(FILE *file, truth_planes *p)
 {
     cache_header header;
     cache_plane plane[PLANES];
-    size_t count = list_planes(p, plane), whole = sizeof header;
-    for (size_t k = 0; k < count; k++) whole += plane[k].size;
     struct stat about;
-    if (fstat(fileno(file), &about) || about.st_size != (off_t)whole) return false;
-    if (fread(&header, sizeof header, 1, file) != 1) return false;
+    if (fstat(fileno(file), &about) || fread(&header, sizeof header, 1, file) != 1) return false;
     if (header.magic != MAGIC || header.format != FORMAT || header.has_rgba != (p->rgba != NULL) ||
         header.width != p->width || header.height != p->height ||
-        memcmp(header.hash, p->hash, sizeof header.hash))
+        memcmp(header.hash, p->hash, sizeof header.hash) || header.terms >> TRUTH_TERMS)
         return false;
+    if (!truth_allocate_effects(p, header.terms)) return false;
+    size_t count = list_planes(p, plane), whole = sizeof header;
+    for (size_t k = 0; k < count; k++) whole += plane[k].size;
+    if (about.st_size != (off_t)whole) return false;
     for (size_t k = 0; k < count; k++)
         if (fread(plane[k].data, 1, plane[k].size, file) != plane[k].size) return false;
     p->ms = header.ms;
@@ -75,6 +87,7 @@ bool truth_cache_read(truth_planes *planes)
     char folder[STORE_PATH];
     FILE *file = store_folder("truth", folder) ? store_open(folder, planes->hash, "truth") : NULL;
     bool good = file && read_file(file, planes);
+    if (!good) truth_free_effects(planes);
     store_close(file, folder, planes->hash, "truth", good);
     return good;
 }
@@ -97,6 +110,7 @@ void truth_cache_write(truth_planes *planes)
     cache_header header = {.magic = MAGIC,
                            .format = FORMAT,
                            .has_rgba = planes->rgba != NULL,
+                           .terms = (uint16_t)terms_of(planes),
                            .width = planes->width,
                            .height = planes->height,
                            .ms = planes->ms,
