@@ -100,7 +100,7 @@ static list_order order_of(const mns_field *field, const mns_plan *plan)
 {
     list_order order = {0};
     mns_error error;
-    if (list_order_make(&order, field, plan, &error)) fail_msg("%s", error.text);
+    if (list_order_make(&order, field, plan, SIZE_MAX, &error)) fail_msg("%s", error.text);
     return order;
 }
 
@@ -295,7 +295,7 @@ static void an_order_can_be_made_again(void **state)
         scene s = scene_of(names[i], &views[0]);
         mns_field *field = scene_field(&s);
         mns_plan *plan = scene_plan(&s, field);
-        assert_int_equal(list_order_make(&order, field, plan, NULL), MNS_OK);
+        assert_int_equal(list_order_make(&order, field, plan, SIZE_MAX, NULL), MNS_OK);
         assert_int_equal(order.count, field->p.count); /* the default view shows all */
         for (size_t k = 0; k < order.count; k++) {
             vec3 from = vec3_sub(centre_of(field, k), vec3_load(plan->origin));

@@ -101,6 +101,7 @@ typedef struct setting {
     mns_field *field;
     mns_plan *plan;
     list_region region;
+    size_t near; /* balls to sort before what they hide is dropped */
     list_order order;
     tile_bins bins;
     size_t tiles;
@@ -109,7 +110,7 @@ typedef struct setting {
 static void make_lists(setting *s)
 {
     mns_error error;
-    if (list_order_make(&s->order, s->field, s->plan, &error) ||
+    if (list_order_make(&s->order, s->field, s->plan, s->near, &error) ||
         tile_outlines_make(&s->bins, &s->order, s->field, s->plan, &error) ||
         tile_bins_make(&s->bins, &s->order, s->field, s->plan, s->region, &error))
         fail_msg("%s: %s", s->name, error.text);
@@ -125,7 +126,8 @@ static void begin(setting *s, const char *name, mns_field *field, const mns_view
     mns_options tile = *options;
     mns_error error;
     tile.method = MNS_METHOD_TILE;
-    *s = (setting){.name = name, .field = field, .region = {0, 0, view->width, view->height}};
+    *s = (setting){
+        .name = name, .field = field, .near = SIZE_MAX, .region = {0, 0, view->width, view->height}};
     if (mns_plan_create(field, view, NULL, &tile, &limits, &s->plan, &error))
         fail_msg("%s: %s", name, error.text);
 }
@@ -327,6 +329,58 @@ static void any_number_of_threads_makes_the_same_lists(void **state)
     omp_set_num_threads(before);
 }
 
+/* ---- What the nearest hide ---- */
+
+static void expect_the_same_balls(const setting *a, const setting *b)
+{
+    assert_int_equal(a->bins.shift, b->bins.shift);
+    assert_int_equal(a->bins.count, b->bins.count);
+    assert_memory_equal(a->bins.head, b->bins.head, a->tiles * sizeof(tile_head));
+    for (size_t i = 1; i <= a->bins.count; i++)
+        assert_int_equal(list_ball_at(&a->order, a->bins.place[i])->index,
+                         list_ball_at(&b->order, b->bins.place[i])->index);
+}
+
+/* Lists are the same, however many balls are sorted before the rest is looked at. */
+static void what_is_dropped_unsorted_was_in_no_list(void **state)
+{
+    (void)state;
+    size_t dropped = 0;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        setting all, few;
+        begin_case(&all, &cases[i]);
+        make_lists(&all);
+        assert_int_equal(all.order.count, all.order.in_view);
+        begin_case(&few, &cases[i]);
+        const size_t near[] = {0, 1, all.order.count / 8, all.order.count / 2, all.order.count};
+        for (size_t k = 0; k < sizeof near / sizeof *near; k++) {
+            few.near = near[k];
+            make_lists(&few);
+            if (all.bins.shift != few.bins.shift) continue; /* it is taken from a sample of the order */
+            expect_the_same_balls(&all, &few);
+            dropped += few.order.in_view - few.order.count;
+        }
+        end(&few);
+        end(&all);
+    }
+    assert_true(dropped > 3000);
+}
+
+static void a_part_of_the_frame_drops_nothing(void **state)
+{
+    (void)state;
+    setting s;
+    const tile_case *dense = cases;
+    while (strcmp(dense->name, "dense") != 0) dense++;
+    begin_case(&s, dense);
+    s.near = 400;
+    s.region = (list_region){0, 0, 96, 36};
+    make_lists(&s);
+    assert_int_equal(s.order.count, s.order.in_view);
+    assert_int_equal(s.order.sorted, s.order.count);
+    end(&s);
+}
+
 /* ---- Crowds and limits ---- */
 
 static mns_field *coincident(size_t count, double strength)
@@ -388,7 +442,7 @@ static void lists_past_the_limit_do_not_fit(void **state)
     begin(&s, "crowd", coincident(CROWD, 1e-4), &view, &(mns_options){0});
     for (size_t i = 0; i < 3; i++) {
         s.plan->pool_most = most[i];
-        assert_int_equal(list_order_make(&s.order, s.field, s.plan, NULL), MNS_OK);
+        assert_int_equal(list_order_make(&s.order, s.field, s.plan, SIZE_MAX, NULL), MNS_OK);
         assert_int_equal(tile_outlines_make(&s.bins, &s.order, s.field, s.plan, NULL), MNS_OK);
         assert_int_equal(tile_bins_make(&s.bins, &s.order, s.field, s.plan, s.region, NULL), MNS_OK);
         assert_false(s.bins.fits);
@@ -456,6 +510,8 @@ int main(void)
         cmocka_unit_test(every_ball_that_a_ray_meets_is_listed),
         cmocka_unit_test(empty_scenes_have_empty_lists),
         cmocka_unit_test(any_number_of_threads_makes_the_same_lists),
+        cmocka_unit_test(what_is_dropped_unsorted_was_in_no_list),
+        cmocka_unit_test(a_part_of_the_frame_drops_nothing),
         cmocka_unit_test(ten_thousand_coincident_balls_are_all_listed),
         cmocka_unit_test(coincident_cores_hide_only_what_begins_behind_them),
         cmocka_unit_test(lists_past_the_limit_do_not_fit),

@@ -64,9 +64,10 @@ static size_t cull_all(list_order *order, const mns_field *field, const cull *c,
 {
     size_t kept[64], begin[64], parts = 1, total = field->p.count;
     uint32_t large = 0; /* farthest key of a ball that is no point, plus one */
+    float most = 0;
     const double *x = field->p.axis[0], *y = field->p.axis[1], *z = field->p.axis[2];
     int threads = omp_get_max_threads() > 64 ? 64 : omp_get_max_threads();
-#pragma omp parallel num_threads(threads) reduction(max : large) if (total > ORDER_ALONE)
+#pragma omp parallel num_threads(threads) reduction(max : large, most) if (total > ORDER_ALONE)
     {
         size_t self = (size_t)omp_get_thread_num(), all = (size_t)omp_get_num_threads();
         size_t first = total * self / all, past = total * (self + 1) / all, n = first;
@@ -78,6 +79,9 @@ static size_t cull_all(list_order *order, const mns_field *field, const cull *c,
             if (!point && key >= large) large = key + 1;
             vec3 from = vec3_sub(at, c->origin);
             order->ball[n] = (list_ball){{(float)from.x, (float)from.y, (float)from.z}, (uint32_t)i};
+            const float *p = order->ball[n].position;
+            float size = fabsf(p[0]) + fabsf(p[1]) + fabsf(p[2]);
+            if (size > most) most = size;
             order->key[n++] = (uint64_t)key << 32;
         }
         begin[self] = first;
@@ -92,6 +96,7 @@ static size_t cull_all(list_order *order, const mns_field *field, const cull *c,
         count += kept[part];
     }
     *past_large = large;
+    order->size = most;
     return count;
 }
 
@@ -111,17 +116,10 @@ static mns_status reserve(list_order *order, size_t count, mns_error *error)
     return MNS_OK;
 }
 
-mns_status list_order_make(list_order *order, const mns_field *field, const mns_plan *plan, mns_error *error)
+/* The places of the keys that reach past_large begin here. */
+static size_t count_quads(const list_order *order, uint32_t past_large)
 {
-    mns_status status = reserve(order, field->p.count, error);
-    if (status) return status;
-    cull c = cull_make(plan);
-    uint32_t past_large;
-    size_t count = cull_all(order, field, &c, &past_large);
-    for (size_t i = 0; i < count; i++) order->key[i] |= (uint32_t)i;
-    list_radix_sort(order->key, order->scratch, order->digits, count);
-    order->count = count;
-    size_t low = 0, high = count; /* where the keys reach past_large */
+    size_t low = 0, high = order->count;
     while (low < high) {
         size_t middle = (low + high) / 2;
         if (order->key[middle] >> 32 >= past_large)
@@ -129,8 +127,28 @@ mns_status list_order_make(list_order *order, const mns_field *field, const mns_
         else
             low = middle + 1;
     }
-    order->quads = low;
+    return low;
+}
+
+mns_status list_order_make(list_order *order, const mns_field *field, const mns_plan *plan, size_t near,
+                           mns_error *error)
+{
+    mns_status status = reserve(order, field->p.count, error);
+    if (status) return status;
+    cull c = cull_make(plan);
+    uint32_t past_large;
+    order->count = order->in_view = cull_all(order, field, &c, &past_large);
+    for (size_t i = 0; i < order->count; i++) order->key[i] |= (uint32_t)i;
+    order->sorted = near < order->count ? list_part_near(order, near) : order->count;
+    list_radix_sort(order->key, order->scratch, order->digits, order->sorted);
+    order->quads = order->sorted == order->count ? count_quads(order, past_large) : 0;
     return MNS_OK;
+}
+
+void list_order_finish(list_order *order)
+{
+    list_radix_sort(order->key + order->sorted, order->scratch, order->digits, order->count - order->sorted);
+    order->sorted = order->count;
 }
 
 void list_order_free(list_order *order)

@@ -15,17 +15,26 @@ typedef struct list_ball {
 
 typedef struct list_order {
     list_ball *ball; /* in view, in the order of the field */
-    uint64_t *key;   /* sorted: effective distance in the upper half, place in `ball` in the lower */
+    uint64_t *key;   /* effective distance in the upper half, place in `ball` in the lower */
     uint64_t *scratch;
     uint32_t *digits; /* counts of the sort */
     size_t capacity;
-    size_t count; /* balls in view */
-    size_t quads; /* of them in order, up to the last too large for a point: all drawn as rectangles */
+    size_t in_view; /* balls */
+    size_t count;   /* of them in the order: all but what was found to be hidden */
+    size_t sorted;  /* of these, the nearest; the rest stands behind them in the order of the field */
+    size_t quads; /* up to the last too large for a point: all drawn as rectangles; 0 unless all are sorted */
+    float size;   /* largest sum of a ball's coordinates, signs aside */
 } list_order;
 
-/* Culls what is outside the view, sorts the rest ascending by |p - e| - R, ties by index. Parallel, the same
- * result for any number of threads. Errors: MEMORY. */
-mns_status list_order_make(list_order *order, const mns_field *field, const mns_plan *plan, mns_error *error);
+/* Culls what is outside the view, sorts the rest ascending by |p - e| - R, ties by index: all, or the nearest
+ * `near` and few more. Parallel, the same result for any number of threads. Errors: MEMORY. */
+mns_status list_order_make(list_order *order, const mns_field *field, const mns_plan *plan, size_t near,
+                           mns_error *error);
+/* Puts the nearest `near`, and those of about the same distance as the last of them, before all others; both
+ * stay in the order of the field. Returns how many they are. */
+size_t list_part_near(list_order *order, size_t near);
+/* Sorts what is not sorted yet. */
+void list_order_finish(list_order *order);
 void list_order_free(list_order *order);
 
 static inline const list_ball *list_ball_at(const list_order *order, size_t place)

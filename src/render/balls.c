@@ -9,13 +9,20 @@
 #define BALL_FEATURES                                                                                        \
     (FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_CORE_RADII | FEATURE_POINTS | FEATURE_QUADS | FEATURE_FAR | \
      FEATURE_COLORS | FEATURE_LABELS | FEATURE_TILES)
+/* And, among tiles, what drops hidden balls from the order: samples beside the centre may see them. */
+#define TILE_FEATURES (BALL_FEATURES | FEATURE_SAMPLES)
+
+static uint64_t ball_features(const mns_plan *plan)
+{
+    return plan->features & (plan->features & FEATURE_TILES ? TILE_FEATURES : BALL_FEATURES);
+}
 
 static bool same_balls(const draw *d)
 {
     const render_last *last = &d->r->last;
     const mns_plan *plan = d->plan;
     return !plan->options.moved && last->field == d->field && last->stamp == d->field->stamp &&
-           last->features == (plan->features & BALL_FEATURES) &&
+           last->features == ball_features(plan) &&
            memcmp(&last->frame, &plan->frame, sizeof plan->frame) == 0 &&
            memcmp(last->origin, plan->origin, sizeof last->origin) == 0 &&
            last->color_column == plan->color_column &&
@@ -26,10 +33,8 @@ static void remember(draw *d)
 {
     const mns_plan *plan = d->plan;
     render_last *last = &d->r->last;
-    *last = (render_last){.field = d->field,
-                          .stamp = d->field->stamp,
-                          .features = plan->features & BALL_FEATURES,
-                          .frame = plan->frame};
+    *last = (render_last){
+        .field = d->field, .stamp = d->field->stamp, .features = ball_features(plan), .frame = plan->frame};
     memcpy(last->origin, plan->origin, sizeof last->origin);
     last->color_column = plan->color_column;
     memcpy(last->color_range, plan->color_range, sizeof last->color_range);
@@ -122,9 +127,12 @@ mns_status draw_balls_upload(draw *d, mns_error *error)
     if (same_balls(d)) return MNS_OK;
     d->r->last = (render_last){0};
     d->r->binned = false;
-    mns_status status = list_order_make(&d->r->order, d->field, d->plan, error);
-    draw_mark(d, MNS_PHASE_SORT);
     bool tiles = d->plan->features & FEATURE_TILES; /* whose balls go up with the lists */
+    bool hides = tiles && d->plan->features & FEATURE_CORE;
+    size_t count = d->field->p.count;
+    mns_status status =
+        list_order_make(&d->r->order, d->field, d->plan, hides ? tile_near(count) : count, error);
+    draw_mark(d, MNS_PHASE_SORT);
     if (!status && !tiles) status = draw_balls_send(d, error);
     if (!status && d->plan->features & FEATURE_POINTS) status = count_backwards(d, error);
     draw_mark(d, MNS_PHASE_UPLOAD);

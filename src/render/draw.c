@@ -224,7 +224,7 @@ static mns_status draw_balls(draw *d, mns_error *error)
                         : tree ? draw_tree_begin(d, error)
                                : draw_balls_upload(d, error);
     if (!status && !traced && d->plan->features & FEATURE_LIT) status = draw_effects_begin(d, error);
-    d->stats->balls_in_view = traced || tree ? d->field->p.count : d->r->order.count;
+    d->stats->balls_in_view = traced || tree ? d->field->p.count : d->r->order.in_view;
     if (!status) status = draw_samples(d, error);
     draw_reference_end(d);
     return status;

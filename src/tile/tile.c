@@ -154,16 +154,14 @@ static size_t pick(const tile_outline *outline, size_t first, size_t past, int l
     return count;
 }
 
-static void bin_band(tile_bins *bins, tile_band *band, tile_work *work)
+/* Bins the balls from `begin` on that are sorted. */
+static void bin_band(tile_bins *bins, tile_band *band, tile_work *work, size_t begin)
 {
     int low = (band->first << bins->shift) + bins->region.y,
         high = (band->past << bins->shift) - 1 + bins->region.y;
-    size_t balls = work->order->count, all = 0;
+    size_t balls = work->order->sorted, all = 0;
     uint32_t place[BAND_BLOCK];
-    band->count = band->core_count = 0;
-    band->failed = false;
-    mask_open(bins, band);
-    for (size_t first = 0; first < balls && all < work->most; first += BAND_BLOCK) {
+    for (size_t first = begin; first < balls && all < work->most; first += BAND_BLOCK) {
         size_t past = first + BAND_BLOCK < balls ? first + BAND_BLOCK : balls, before = band->count;
         size_t count = pick(bins->outline, first, past, low, high, place);
         for (size_t i = 0; i < count; i++)
@@ -177,14 +175,15 @@ static void bin_band(tile_bins *bins, tile_band *band, tile_work *work)
 }
 
 /* About one to two balls' images wide, within what a mask can tell apart. */
-static int choose_shift(const tile_bins *bins, size_t balls)
+static int choose_shift(const tile_bins *bins, const list_order *order, const mns_field *field)
 {
     double sum = 0;
-    size_t step = balls / 1024 + 1, count = 0;
-    for (size_t i = 0; i < balls; i += step) {
-        const tile_outline *o = &bins->outline[i];
-        if (isinf(o->reach)) continue;
-        sum += 2 * (double)o->reach;
+    size_t step = order->count / 1024 + 1, count = 0;
+    for (size_t i = 0; i < order->count; i += step) {
+        const list_ball *ball = list_ball_at(order, i);
+        tile_outline o = tile_outline_of(&bins->lens, ball->position, field_radius(field, ball->index));
+        if (isinf(o.reach)) continue;
+        sum += 2 * (double)o.reach;
         count++;
     }
     double wide = count ? sum / (double)count : 64;
@@ -195,11 +194,13 @@ static mns_status reserve(tile_bins *bins, mns_error *error)
 {
     size_t tiles = (size_t)bins->across * (size_t)bins->down;
     if (bins->tile_capacity < tiles) {
-        free(bins->mask), free(bins->length), free(bins->head);
+        free(bins->mask), free(bins->length), free(bins->head), free(bins->open);
         bins->mask = memory_array(tiles, sizeof *bins->mask);
         bins->length = memory_array(tiles, sizeof *bins->length);
         bins->head = memory_array(tiles, sizeof *bins->head);
-        bins->tile_capacity = bins->mask && bins->length && bins->head ? tiles : 0;
+        /* One more row and column are no more than twice as many, and two. */
+        bins->open = memory_array(2 * tiles + 2, sizeof *bins->open);
+        bins->tile_capacity = bins->mask && bins->length && bins->head && bins->open ? tiles : 0;
     }
     int wanted = 4 * omp_get_max_threads();
     bins->band_count = wanted < bins->down ? wanted : bins->down;
@@ -261,28 +262,56 @@ static bool write_lists(tile_bins *bins)
     return true;
 }
 
-mns_status tile_bins_make(tile_bins *bins, const list_order *order, const mns_field *field,
-                          const mns_plan *plan, list_region region, mns_error *error)
+/* Shares the rows of tiles out, all open. */
+static void open_bands(tile_bins *bins)
 {
-    tile_work work = {order, field, plan,
-                      plan->pool_most < TILE_ENTRIES_MOST ? plan->pool_most : TILE_ENTRIES_MOST, 0};
-    bins->region = region;
-    bins->fits = false;
-    bins->shift = choose_shift(bins, order->count);
-    bins->across = (region.width + (1 << bins->shift) - 1) >> bins->shift;
-    bins->down = (region.height + (1 << bins->shift) - 1) >> bins->shift;
-    mns_status status = reserve(bins, error);
-    if (status) return status;
-    bool failed = false;
-#pragma omp parallel for schedule(dynamic, 1) reduction(|| : failed) if (order->count > BIN_ALONE)
     for (int i = 0; i < bins->band_count; i++) {
         tile_band *band = &bins->band[i];
         band->first = (int)((long)bins->down * i / bins->band_count);
         band->past = (int)((long)bins->down * (i + 1) / bins->band_count);
-        bin_band(bins, band, &work);
-        failed = failed || band->failed;
+        band->count = band->core_count = 0;
+        band->failed = false;
+        mask_open(bins, band);
     }
-    if (failed) return status_no_memory(error, "while binning the balls");
+}
+
+/* Outlines and bins what was sorted since `begin`. */
+static mns_status bin_sorted(tile_bins *bins, tile_work *work, size_t begin, mns_error *error)
+{
+    bool failed = false;
+    mns_status status = tile_outlines_go_on(bins, work->order, work->field, error);
+    if (status) return status;
+#pragma omp parallel for schedule(dynamic, 1) reduction(|| : failed) if (work->order->sorted > BIN_ALONE)
+    for (int i = 0; i < bins->band_count; i++) {
+        bin_band(bins, &bins->band[i], work, begin);
+        failed = failed || bins->band[i].failed;
+    }
+    return failed ? status_no_memory(error, "while binning the balls") : MNS_OK;
+}
+
+mns_status tile_bins_make(tile_bins *bins, list_order *order, const mns_field *field, const mns_plan *plan,
+                          list_region region, mns_error *error)
+{
+    tile_work work = {order, field, plan,
+                      plan->pool_most < TILE_ENTRIES_MOST ? plan->pool_most : TILE_ENTRIES_MOST, 0};
+    bool whole = region.width == plan->frame.width && region.height == plan->frame.height;
+    bins->region = region;
+    bins->fits = false;
+    bins->shift = choose_shift(bins, order, field);
+    bins->across = (region.width + (1 << bins->shift) - 1) >> bins->shift;
+    bins->down = (region.height + (1 << bins->shift) - 1) >> bins->shift;
+    mns_status status = reserve(bins, error);
+    if (status) return status;
+    if (!whole) list_order_finish(order); /* what a part hides may be seen in another */
+    open_bands(bins);
+    status = bin_sorted(bins, &work, 0, error);
+    if (!status && order->sorted < order->count && work.count < work.most) {
+        size_t begin = order->sorted;
+        tile_sieve(bins, order, field);
+        list_order_finish(order);
+        status = bin_sorted(bins, &work, begin, error);
+    }
+    if (status) return status;
     place_bands(bins);
     if (bins->count >= work.most) return MNS_OK;
     if (!write_lists(bins)) return status_no_memory(error, "while binning the balls");
@@ -313,7 +342,8 @@ bool tile_bins_lengths(const tile_bins *bins, list_lengths *lengths)
 
 void tile_bins_free(tile_bins *bins)
 {
-    free(bins->outline), free(bins->mask), free(bins->length), free(bins->head), free(bins->place);
+    free(bins->outline), free(bins->mask), free(bins->length), free(bins->head), free(bins->place),
+        free(bins->open);
     for (int i = 0; i < bins->band_capacity; i++) free(bins->band[i].pair), free(bins->band[i].core);
     free(bins->band);
     *bins = (tile_bins){0};

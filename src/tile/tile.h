@@ -23,6 +23,12 @@ enum { TILE_ENTRIES_MOST = 1 << 30 };
 /* Fewer balls are binned by one thread; see ORDER_ALONE. */
 enum { BIN_ALONE = 4096 };
 
+/* How many of a frame's balls are to be sorted and binned before what they hide is dropped. */
+static inline size_t tile_near(size_t balls)
+{
+    return balls < 65536 ? balls : balls / 8 > 32768 ? balls / 8 : 32768;
+}
+
 typedef struct tile_pair {
     uint32_t tile, ball;
 } tile_pair;
@@ -45,27 +51,39 @@ typedef struct tile_bins {
     size_t count;     /* entries of all lists */
     bool fits;        /* fewer than the plan allows; otherwise there are no lists, and count is but a bound */
     float slack;      /* no ray enters a ball before its effective distance less this */
-    tile_outline *outline; /* of the order's balls */
-    size_t ball_capacity;
+    tile_outline *outline; /* of the order's balls that are sorted */
+    size_t outlined, ball_capacity;
     uint32_t *place; /* of the order's balls, an entry; the lists begin with entry 1 */
     size_t place_capacity;
     uint64_t *mask;   /* a tile */
     uint32_t *length; /* a tile */
     tile_head *head;  /* a tile */
+    uint32_t *
+        open; /* tiles with an open cell in the rows and columns before, a row and a column more than tiles */
     size_t tile_capacity;
     tile_band *band;
     int band_count, band_capacity;
 } tile_bins;
 
-/* Outlines of the order's balls, once a frame. Errors: MEMORY. */
+/* Outlines of the order's balls that are sorted, once a frame. Errors: MEMORY. */
 mns_status tile_outlines_make(tile_bins *bins, const list_order *order, const mns_field *field,
                               const mns_plan *plan, mns_error *error);
+/* Outlines of those that were sorted since. Errors: MEMORY. */
+mns_status tile_outlines_go_on(tile_bins *bins, const list_order *order, const mns_field *field,
+                               mns_error *error);
 /* Whether the outlines that were made last are also this plan's, the order being the same. */
 bool tile_outlines_serve(const tile_bins *bins, const mns_plan *plan);
-/* Bins them over a region of the frame; see bins->fits. The same result for any number of threads. Errors:
- * MEMORY. */
-mns_status tile_bins_make(tile_bins *bins, const list_order *order, const mns_field *field,
-                          const mns_plan *plan, list_region region, mns_error *error);
+/* The order's balls [first, past), at most TILE_BLOCK, as a block. */
+void tile_block_fill(tile_block *block, const list_order *order, const mns_field *field, size_t first,
+                     size_t past);
+/* Drops from the order what is not sorted and lies wholly behind the cells that are hidden, the region being
+ * the whole frame. */
+void tile_sieve(const tile_bins *bins, list_order *order, const mns_field *field);
+/* Bins an order over a region of the frame; see bins->fits. What the order has not sorted is sorted then, and
+ * dropped from it where the nearer balls hide it. The same result for any number of threads. Errors: MEMORY.
+ */
+mns_status tile_bins_make(tile_bins *bins, list_order *order, const mns_field *field, const mns_plan *plan,
+                          list_region region, mns_error *error);
 /* Whether the bins that were made last are also this plan's of that region, the order being the same. */
 bool tile_bins_serve(const tile_bins *bins, const mns_plan *plan, list_region region);
 /* Notes every pixel's list's length. False: out of memory. */
