@@ -1,5 +1,6 @@
 // The balls in view in order of effective distance, for tiles those of each list in turn: BALL_STRIDE floats each, x y z [R] [q];
 // where a double is wanted, a second buffer of the same form holds what the float left over.
+// Of tiles and trees a ball has four at least.
 //
 // The cast reads them as texels where the buffer fits one (BALL_TEXELS): a whole ball a fetch.
 
@@ -11,7 +12,7 @@
 #ifdef STRENGTHS
 #define BALL_STRIDE (BALL_STRENGTH_AT + 1u)
 #else
-#ifdef TILES
+#if defined(TILES) || defined(TREE_DEPTH)
 #define BALL_STRIDE 4u
 #else
 #define BALL_STRIDE BALL_STRENGTH_AT

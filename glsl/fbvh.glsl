@@ -1,4 +1,5 @@
 // The frame by a tree: one pixel's ray an invocation. Compute shader; eight neighbouring invocations see a block of 4x2 pixels.
+#define VIEW_LOOSE
 #include "real.glsl"
 #include "density.glsl"
 #include "view.glsl"

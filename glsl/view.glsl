@@ -3,6 +3,25 @@
 // Coordinates are relative to the frame's origin o (the eye, or for a far eye the point of the field's box nearest to it), in the
 // axes of the scene. Pixels are GL's: (0.5, 0.5) is the centre of the lower left one.
 
+#ifdef VIEW_LOOSE
+// The same by uniforms of their own, for the programs of most pixels: a software renderer reads a block's members lane by lane.
+layout(location = 8) uniform vec4 corner;
+layout(location = 9) uniform vec4 step_x;
+layout(location = 10) uniform vec4 step_y;
+layout(location = 11) uniform vec4 start;
+layout(location = 12) uniform vec4 start_x;
+layout(location = 13) uniform vec4 start_y;
+layout(location = 14) uniform vec4 right;
+layout(location = 15) uniform vec4 up;
+layout(location = 16) uniform vec4 forward;
+layout(location = 17) uniform vec4 lens;
+layout(location = 18) uniform vec4 depth;
+layout(location = 19) uniform vec4 level;
+layout(location = 20) uniform vec4 core;
+layout(location = 21) uniform vec4 sight_steps;
+layout(location = 22) uniform vec4 eye_slope;
+layout(location = 23) uniform vec4 host;
+#else
 layout(std140, binding = 0) uniform View {
     REAL4 corner;  // raw direction at pixel (0, 0): forward component 1
     REAL4 step_x;  // its change a pixel
@@ -21,6 +40,7 @@ layout(std140, binding = 0) uniform View {
     REAL4 eye_slope; // gradient of f at the eye, and a bound on its second derivatives there; used when EYE_ON
     REAL4 host;    // near, far of a host's projection, lower left corner of the view in its framebuffer
 };
+#endif
 
 #define level_inverse core.y
 #define level_two core.z

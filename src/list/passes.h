@@ -5,6 +5,7 @@
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "list/order.h"
+#include "list/uniforms.h"
 
 typedef struct list_region {
     int x, y, width, height; /* GL pixels: from the lower left */
@@ -25,7 +26,8 @@ typedef struct list_passes {
     GLuint heads_target, depth_target, bare_target; /* framebuffers */
     GLuint vertex_array;
     int width, height;
-    int tile_grid[4]; /* as in glsl/tiles.glsl */
+    int tile_grid[4];                 /* as in glsl/tiles.glsl */
+    float view_now[VIEW_VECTORS * 4]; /* what `view` holds */
     size_t node_capacity;
     size_t redo_capacity; /* pixels of a region at most */
 } list_passes;

@@ -49,6 +49,12 @@ void list_view_block(const mns_plan *plan, const mns_field *field, const double 
     for (int i = 0; i < VIEW_VECTORS * 4; i++) narrow[i] = (float)wide[i];
 }
 
+void list_view_loose(const gl_device *device, const float narrow[VIEW_VECTORS * 4])
+{
+    enum { UNIFORM_VIEW = 8 }; /* of the first; what a program does not read is passed over by GL */
+    for (int i = 0; i < VIEW_VECTORS; i++) device->gl.Uniform4fv(UNIFORM_VIEW + i, 1, narrow + 4 * i);
+}
+
 void list_far_block(const mns_plan *plan, double block[FAR_VECTORS * 4])
 {
     vec3 corner, step_x, step_y;

@@ -42,6 +42,18 @@ static mns_limits resolve_limits(const mns_limits *limits)
     return l;
 }
 
+/* x y z [R] [q] */
+static size_t ball_numbers(const mns_plan *plan)
+{
+    return 3 + (plan->features & FEATURE_RADII ? 1 : 0) + (plan->features & FEATURE_STRENGTHS ? 1 : 0);
+}
+
+size_t plan_tree_floats(const mns_plan *plan)
+{
+    size_t floats = ball_numbers(plan);
+    return floats < 4 ? 4 : floats; /* a texel of four is read in less time than one of three */
+}
+
 void plan_balls(mns_plan *plan, const mns_field *field)
 {
     if (field->p.radius)
@@ -52,7 +64,7 @@ void plan_balls(mns_plan *plan, const mns_field *field)
         plan->features |= FEATURE_STRENGTHS;
     else
         plan_leave_out(plan, "a strength a ball", "all are 1");
-    plan->ball_floats = plan_tree_floats(plan);
+    plan->ball_floats = ball_numbers(plan);
 }
 
 void plan_eye(mns_plan *plan, const mns_field *field)

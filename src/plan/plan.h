@@ -123,7 +123,7 @@ void plan_effects_left_out(mns_plan *plan);
 /* Of a frame drawn on the GPU: whether rays beyond the first are traced there, and of a list's frame the tree
  * that carries them. Errors: USAGE. */
 mns_status plan_rays(mns_plan *plan, const mns_field *field, mns_error *error);
-/* Floats a ball of the tree's, x y z [R] [q]. */
+/* Floats a ball of the tree's: x y z [R] [q], and where those are three, one more. */
 size_t plan_tree_floats(const mns_plan *plan);
 
 /* A method, and why it is that one: a literal. */

@@ -4,11 +4,6 @@
 
 #include "base/vec.h"
 
-size_t plan_tree_floats(const mns_plan *plan)
-{
-    return 3 + (plan->features & FEATURE_RADII ? 1 : 0) + (plan->features & FEATURE_STRENGTHS ? 1 : 0);
-}
-
 void plan_tree_place(const mns_field *field, double origin[3])
 {
     for (int axis = 0; axis < 3; axis++)

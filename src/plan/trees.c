@@ -69,6 +69,7 @@ mns_status plan_trees(mns_plan *plan, const mns_field *field, bool host, mns_err
     plan->features |= FEATURE_TREE;
     if (plan->options.method == MNS_METHOD_BVH) plan->features |= FEATURE_OVERLAPS;
     plan_balls(plan, field);
+    plan->ball_floats = plan_tree_floats(plan);
     plan_eye(plan, field);
     mns_status status = plan_tree(plan, field, error);
     if (!status) status = plan_check_limits(plan, field, error);

@@ -36,10 +36,10 @@ void draw_send(draw *d, gl_buffer *buffer, const void *data, size_t size)
 /* The camera of one sample, to the uniform blocks. */
 static void set_view(draw *d, const double jitter[2])
 {
-    float narrow[VIEW_VECTORS * 4];
+    float *narrow = d->r->passes.view_now;
     double far_block[FAR_VECTORS * 4];
     list_view_block(d->plan, d->field, jitter, d->target, d->wide, narrow);
-    draw_send(d, &d->r->passes.view, narrow, sizeof narrow);
+    draw_send(d, &d->r->passes.view, narrow, sizeof d->r->passes.view_now);
     if (!(d->plan->features & FEATURE_FAR)) return;
     list_far_block(d->plan, far_block);
     draw_send(d, &d->r->passes.far_block, far_block, sizeof far_block);

@@ -94,6 +94,7 @@ void trace_pack_balls(const fbvh_tree *tree, const mns_plan *plan, float *out)
 #pragma omp parallel for if (tree->ball_count > CHUNK * 8)
     for (size_t i = 0; i < tree->ball_count; i++) {
         float *to = out + i * stride;
+        to[stride - 1] = 0; /* there may be room to spare */
         memcpy(to, tree->ball[i].position, sizeof tree->ball[i].position);
         if (radii) to[3] = tree->ball[i].radius;
         if (strengths) to[stride - 1] = tree->strength ? tree->strength[i] : 1;
@@ -108,6 +109,7 @@ void trace_pack_low(const uint32_t *index, size_t count, const mns_field *field,
 #pragma omp parallel for if (count > CHUNK * 8)
     for (size_t i = 0; i < count; i++) {
         float *to = out + i * stride;
+        to[stride - 1] = 0;
         for (int axis = 0; axis < 3; axis++) {
             double exact = field->p.axis[axis][index[i]] - plan->tree_origin[axis];
             to[axis] = (float)(exact - (double)rounded(exact));

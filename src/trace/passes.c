@@ -130,7 +130,7 @@ static void bind_texels(gl_device *device, GLuint *texture, GLenum unit, GLenum 
 
 void trace_bind(trace_passes *t, list_passes *p, gl_device *device, const mns_plan *plan)
 {
-    static const GLenum formats[] = {[3] = GL_RGB32F, [4] = GL_RGBA32F, [5] = GL_R32F};
+    static const GLenum formats[] = {[4] = GL_RGBA32F, [5] = GL_R32F};
     const GladGLContext *gl = &device->gl;
     if (plan->features & FEATURE_TEXELS) {
         bind_texels(device, &t->ball_texels, GL_TEXTURE2, formats[plan_tree_floats(plan)], &t->balls);
@@ -189,6 +189,7 @@ void trace_cast(trace_passes *t, list_passes *p, gl_device *device, const mns_pl
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view.id);
     bind_tree(t, p, device, plan, plane);
     trace_use(t, device, program);
+    list_view_loose(device, p->view_now);
     gl->Uniform4i(UNIFORM_REGION, region.x, region.y, region.x + region.width, region.y + region.height);
     if (plan->options.solver == MNS_SOLVER_SECANT)
         gl->Uniform1i(UNIFORM_SECANT_STEPS, plan->options.secant_steps);
