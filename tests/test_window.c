@@ -169,6 +169,18 @@ static void pace_drops_and_comes_back(void **state)
     assert_float_equal(p.target_ms, 1000.0 / 60, 1e-12);
 }
 
+/* Where most of the time hangs on no pixel, few pixels would gain nothing. */
+static void pace_leaves_pixels_that_cost_little(void **state)
+{
+    (void)state;
+    pace p;
+    pace_begin(&p, 1);
+    for (int i = 0; i < 40; i++) pace_drawn(&p, 200 + 400 * pace_scale(&p) * pace_scale(&p));
+    double pixels = 400 * pace_scale(&p) * pace_scale(&p);
+    assert_true(pixels > 25 && pixels < 60);
+    assert_float_equal(p.fixed_ms, 200, 1e-6);
+}
+
 static void a_sequence_keeps_its_beat(void **state)
 {
     (void)state;
@@ -313,6 +325,7 @@ int main(void)
         cmocka_unit_test(fit_shows_every_corner),
         cmocka_unit_test(field_of_view_keeps_the_size_at_the_target),
         cmocka_unit_test(pace_drops_and_comes_back),
+        cmocka_unit_test(pace_leaves_pixels_that_cost_little),
         cmocka_unit_test(a_sequence_keeps_its_beat),
         cmocka_unit_test(what_comes_too_late_is_dropped_and_told),
         cmocka_unit_test(frames_are_read_on_a_thread),

@@ -1,6 +1,7 @@
 /* Actions that move the camera, and what the mouse does. */
 #include "window/action.h"
 
+#include "base/clock.h"
 #include "base/status.h"
 
 static const double DEGREE = 3.14159265358979323846 / 180;
@@ -61,6 +62,14 @@ mns_status action_home(viewer *v, const words *w, mns_error *error)
     (void)w, (void)error;
     v->camera = v->home;
     return moved(v);
+}
+
+mns_status action_spin(viewer *v, const words *w, mns_error *error)
+{
+    if (!(w->number[0] > 0))
+        return status_fail(error, MNS_ERROR_USAGE, "spin %s: expected seconds above 0", w->text);
+    if (!spin_begin(&v->spin, clock_ms(), w->number[0])) return status_no_memory(error, "beginning to spin");
+    return MNS_OK;
 }
 
 mns_status action_side_of(viewer *v, const words *w, mns_error *error)

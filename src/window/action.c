@@ -22,6 +22,7 @@ static const action_row ROWS[] = {
     {"fly", "X Y Z", 3, action_fly, "the camera moves right, up and ahead, scene units"},
     {"fit", "", 0, action_fit, "the whole field fits the window"},
     {"home", "", 0, action_home, "back to the first view"},
+    {"spin", "S", 1, action_spin, "goes around for S seconds, and tells how fast the pictures came"},
     {"side", "NAME", -1, action_side_of, "looks from the front, back, left, right, top or bottom"},
     {"fov", "DEG", 1, action_fov, "the field of view"},
     {"widen", "F", 1, action_widen, "the field of view becomes F times what it is"},

@@ -124,6 +124,23 @@ bool events_fly(viewer *v)
     return true;
 }
 
+bool events_spin(viewer *v)
+{
+    double median, p95, now = clock_ms();
+    if (spin_end(&v->spin, now, &median, &p95)) {
+        v->held = false;
+        v->moved_ms = now;
+        viewer_tell(v, "spin: %zu pictures, median %.1f ms, p95 %.1f ms, at last %dx%d of %dx%d",
+                    v->spin.count, median, p95, pace_size(&v->pace, v->width), pace_size(&v->pace, v->height),
+                    v->width, v->height);
+    }
+    if (!v->spin.until_ms) return false;
+    v->held = true;
+    camera_orbit(&v->camera, spin_step(&v->spin, now), 0);
+    drawing_change(v, true);
+    return true;
+}
+
 /* ---- Under the cursor
  * ---------------------------------------------------------------------------------------------------- */
 

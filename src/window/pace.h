@@ -6,6 +6,9 @@
 typedef struct pace {
     double target_ms; /* what a frame may take */
     int step;         /* the scale in steps of 1/PACE_STEPS */
+    double fixed_ms; /* what of a frame hangs on no pixel, such as sorting the balls; as far as it is known */
+    double last_ms;  /* of the frame before, drawn at: */
+    int last_step;
 } pace;
 
 enum { PACE_STEPS = 16, PACE_LEAST = 3 };

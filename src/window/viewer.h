@@ -9,6 +9,7 @@
 #include "window/player.h"
 #include "window/screen.h"
 #include "window/script.h"
+#include "window/spin.h"
 #include "window/timeline.h"
 #include "window/window.h"
 
@@ -111,6 +112,7 @@ typedef struct viewer {
     double fly_ms; /* when the flight was last moved on */
     hover hover;
     script script;
+    spin spin;
 } viewer;
 
 /* window.c: one line for the user: in the title, the panel and on the terminal. */
@@ -163,7 +165,7 @@ void drawing_show(viewer *v);
 mns_view drawing_view(const viewer *v);
 /* Sides in use. */
 int drawing_sides(const viewer *v);
-mns_options drawing_options(const viewer *v, int side);
+mns_options drawing_options(const viewer *v, int which);
 /* The point of the surface under a pixel of the window; false: there is none. */
 bool drawing_point(viewer *v, double x, double y, vec3 *point);
 
@@ -183,6 +185,8 @@ void events_scroll(viewer *v, double by);
 void events_key(viewer *v, int key, int mods);
 /* Moves a flight on; true while there is one. */
 bool events_fly(viewer *v);
+/* Moves a spin on, and tells what it came to at its end; true while there is one. */
+bool events_spin(viewer *v);
 /* Says what is under the cursor, once it rests. */
 void events_hover(viewer *v);
 

@@ -50,6 +50,8 @@ static void show_title(viewer *v)
     if (v->timeline.frames > 1 && used < sizeof title)
         used += (size_t)snprintf(title + used, sizeof title - used, " [%ld/%ld]", v->timeline.shown,
                                  v->timeline.frames - 1);
+    if (v->timeline.dropped && used < sizeof title)
+        used += (size_t)snprintf(title + used, sizeof title - used, " %ld dropped", v->timeline.dropped);
     if (a->is_drawn && used < sizeof title)
         used += (size_t)snprintf(title + used, sizeof title - used, " - %s %s %.1f ms",
                                  mns_frame_stats(a->frame)->method, mns_frame_stats(a->frame)->solver, a->ms);
@@ -78,6 +80,7 @@ static void present(viewer *v)
     viewer_present(v);
     if (screen_check(&v->screen, "putting the picture on the window", &error)) viewer_tell_error(v, &error);
     glfwSwapBuffers(v->window);
+    spin_shown(&v->spin, clock_ms());
     show_title(v);
     v->stale = false;
 }
@@ -332,6 +335,7 @@ static void close_all(viewer *v)
     drawing_end(v);
     screen_close(&v->screen);
     script_free(&v->script);
+    spin_free(&v->spin);
     free(v->keys);
     if (v->window) glfwDestroyWindow(v->window);
     glfwTerminate();
@@ -347,7 +351,8 @@ static mns_status run_script(viewer *v, mns_error *error)
     script *s = &v->script;
     while (s->next && !v->closing) {
         mns_error why;
-        if (s->rests && (v->stage != STAGE_DONE || v->stale || v->wanted >= 0 || v->check.running))
+        if (s->rests &&
+            (v->stage != STAGE_DONE || v->stale || v->wanted >= 0 || v->check.running || v->spin.until_ms))
             return MNS_OK;
         if (clock_ms() < s->until_ms) return MNS_OK;
         s->rests = false;
@@ -369,7 +374,7 @@ static double turn(viewer *v, mns_status *status, mns_error *error)
     mns_error why;
     *status = run_script(v, error);
     if (*status) return 0;
-    bool flies = events_fly(v);
+    bool flies = events_spin(v) || events_fly(v);
     wait = subject_step(v);
     if (drawing_step(v, &again, &why)) {
         viewer_tell_error(v, &why);

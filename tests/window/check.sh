@@ -90,10 +90,17 @@ done
 
 # ---- Each way to a context.
 for context in native egl osmesa; do
-    view $'save '$context$'.png\nquit' scattered:200 "${size[@]}" --context $context
+    view $'save '$context$'.png\nspin 0.5\nrest\nquit' scattered:200 "${size[@]}" --context $context
     [[ $context != native ]] || render scattered:200 "${size[@]}" -o expected.png
     same $context.png expected.png "--context $context"
+    grep -q '^spin: [1-9]' log || complain "--context $context: no spin: $(cat log)"
 done
+
+# ---- What puts it on the window is valid by the letter.
+if command -v glslangValidator >/dev/null; then
+    { echo '#version 430 core'; cat "$source/glsl/color.glsl" "$source/glsl/window/screen.frag.glsl"; } >screen.frag
+    glslangValidator screen.frag >log || complain "screen.frag.glsl: $(cat log)"
+fi
 
 # ---- Two methods, the divider, the error against the truth.
 view $'compare divider\nother fbvh:exact\nrest\ngrab middle.png\ndrag 0 160 120 60 120\ngrab left.png
