@@ -34,8 +34,7 @@ static mns_image *read_back(draw_fixture *d)
 static void samples_one_by_one_are_those_at_once(void **state)
 {
     draw_fixture *d = *state;
-    static const mns_method methods[] = {MNS_METHOD_TILE, MNS_METHOD_LIST, MNS_METHOD_FBVH,
-                                         MNS_METHOD_REFERENCE};
+    static const mns_method methods[] = {MNS_METHOD_TILE, MNS_METHOD_FBVH};
     mns_field *field = draw_generated("scattered:60", MNS_KERNEL_DEFAULT);
     for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
         drawn(d, field, (mns_options){.method = methods[m], .samples = 5});

@@ -326,6 +326,7 @@ static void tell_messages(viewer *v)
     }
 }
 
+/* GLFW itself stays initialised: glfwTerminate would take windows along that are not this one. */
 static void close_all(viewer *v)
 {
     check_stop(&v->check);
@@ -338,7 +339,6 @@ static void close_all(viewer *v)
     spin_free(&v->spin);
     free(v->keys);
     if (v->window) glfwDestroyWindow(v->window);
-    glfwTerminate();
 }
 
 /* ---- The loop
