@@ -151,6 +151,8 @@ def print_compared(program):
 
 def print_wins(program):
     """Where each wins: as the count, the density, the frame and the movement change."""
+    for method in ("list", "tile", "fbvh"):  # the driver keeps what it has compiled
+        frames(program, ["scattered:1000"], ["--method", method, "--repeat", "3"])
     rows = []
     for kind in ("scattered", "dense"):
         for count in (1000, 10000, 100000, 1000000):
