@@ -15,7 +15,7 @@ for scene in examples/dam.json examples/molecule.json scattered:100000; do
         --script "$folder/script" >"$folder/log"
     still=$(sed -n 's/^still: .*last in \([0-9.]*\) ms$/\1/p' "$folder/log")
     sed -n 's/^spin: \([0-9]*\) pictures, median \([0-9.]*\) ms, p95 \([0-9.]*\) ms, at last \([0-9x]*\) of .*/\1 \2 \3 \4/p' \
-        "$folder/log" | while read -r count median p95 size; do
+        "$folder/log" | tail -n 1 | while read -r count median p95 size; do
         echo "| $scene | $((count / 10)) | $median | $p95 | $size | $still |"
     done
 done

@@ -7,6 +7,7 @@ layout(binding = 3) uniform sampler2D t_b;
 layout(location = 0) uniform vec4 frame;  // width and height on the window, place of the divider in pixels, its half width
 layout(location = 1) uniform vec4 levels; // gains of A and B, units of distance a t_a and a t_b
 layout(location = 2) uniform float scale; // the difference that is shown as full red or blue
+layout(location = 4) uniform float square; // side of what stands behind a picture that is not opaque, pixels
 layout(location = 3) uniform int mode;    // 0: A, 1: B, 2: A left of the divider and B right of it, 3: difference
 
 layout(location = 0) out vec4 out_color;
@@ -14,8 +15,8 @@ layout(location = 0) out vec4 out_color;
 // What is not opaque stands before a checkerboard.
 vec3 over_squares(vec4 color)
 {
-    ivec2 square = ivec2(gl_FragCoord.xy) / 12;
-    float light = ((square.x + square.y) & 1) == 0 ? 0.6 : 0.4;
+    ivec2 at = ivec2(gl_FragCoord.xy / square);
+    float light = ((at.x + at.y) & 1) == 0 ? 0.6 : 0.4;
     return color.rgb + (1.0 - clamp(color.a, 0.0, 1.0)) * light;
 }
 

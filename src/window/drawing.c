@@ -101,9 +101,10 @@ static mns_status draw(viewer *v, double scale, int samples, int first, mns_erro
     return status;
 }
 
+/* With what putting it on the window takes. */
 static double drawn_ms(const viewer *v)
 {
-    double ms = 0;
+    double ms = v->show_ms;
     for (int i = 0; i < drawing_sides(v); i++) ms += v->side[i].ms;
     return ms;
 }
@@ -120,6 +121,8 @@ static mns_status draw_sample(viewer *v, int first, mns_error *error)
 {
     int samples = drawing_options(v, 0).samples;
     mns_status status = draw(v, 1, samples, first, error);
+    if (!first && v->pace.step == PACE_STEPS)
+        pace_drawn(&v->pace, drawn_ms(v)); /* moving, it would take as long */
     if (status || first + 1 >= samples)
         finish(v);
     else
@@ -136,6 +139,8 @@ static mns_status draw_moving(viewer *v, mns_error *error)
     else
         v->stage = STAGE_COARSE;
     pace_drawn(&v->pace, drawn_ms(v));
+    v->moving_ms[1] = v->moving_ms[0];
+    v->moving_ms[0] = drawn_ms(v);
     return status;
 }
 
@@ -200,9 +205,14 @@ void drawing_show(viewer *v)
                         .height = v->height,
                         .place = v->place * v->width,
                         .line = 2,
-                        .scale = divider_scale(v)};
+                        .scale = divider_scale(v),
+                        .drawn_width = v->width,
+                        .drawn_height = v->height};
     if (drawing_sides(v) > 1) desc.b = picture_of(b);
-    desc.smooth = a->is_drawn && mns_frame_stats(a->frame)->width != v->width;
+    if (a->is_drawn) {
+        desc.drawn_width = mns_frame_stats(a->frame)->width;
+        desc.drawn_height = mns_frame_stats(a->frame)->height;
+    }
     screen_show(&v->screen, &desc);
     v->shows++;
     v->stale = false;

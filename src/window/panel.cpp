@@ -89,7 +89,7 @@ void graph(panel *p, const char *name, const float *history)
 {
     char text[64];
     snprintf(text, sizeof text, "%s %.2f ms", name, static_cast<double>(history[p->at]));
-    ImGui::PlotLines("##graph", history, HISTORY, (p->at + 1) % HISTORY, text, 0, FLT_MAX, ImVec2(-1, 36));
+    ImGui::PlotLines("##graph", history, HISTORY, (p->at + 1) % HISTORY, text, 0, FLT_MAX, ImVec2(ImGui::GetContentRegionAvail().x, 3 * ImGui::GetFontSize()));
 }
 
 void times(panel *p)

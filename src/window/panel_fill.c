@@ -44,7 +44,7 @@ static void figures(const viewer *v, const mns_stats *s, panel_content *p)
              (double)s->tree.bytes / 1048576);
     if (!getrusage(RUSAGE_SELF, &usage)) line(p, "memory: %.0f MiB at most", (double)usage.ru_maxrss / 1024);
     if (s->pixels_undecided) line(p, "%llu pixels undecided", (unsigned long long)s->pixels_undecided);
-    if (*s->color_by) line(p, "%s: %.6g to %.6g", s->color_by, s->color_range[0], s->color_range[1]);
+    if (*s->color_map) line(p, "%s: %.6g to %.6g", s->color_by, s->color_range[0], s->color_range[1]);
 }
 
 static void compared(viewer *v, panel_content *p)

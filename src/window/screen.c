@@ -57,6 +57,7 @@ mns_status screen_open(screen *s, mns_get_proc get_proc, mns_error *error)
     const GladGLContext *gl = &s->gl;
     gl->GenVertexArrays(1, &s->vertex_array);
     gl->GenFramebuffers(1, &s->read_target);
+    gl->GenFramebuffers(1, &s->small_target);
     gl->GenSamplers(2, s->sampler);
     for (int i = 0; i < 2; i++) {
         GLint filter = i ? GL_LINEAR : GL_NEAREST;
@@ -77,6 +78,8 @@ void screen_close(screen *s)
     gl->DeleteProgram(s->program);
     gl->DeleteSamplers(2, s->sampler);
     gl->DeleteFramebuffers(1, &s->read_target);
+    gl->DeleteFramebuffers(1, &s->small_target);
+    gl->DeleteTextures(1, &s->small);
     gl->DeleteVertexArrays(1, &s->vertex_array);
     memset(s, 0, sizeof *s);
 }
@@ -86,28 +89,30 @@ static GLuint texture_of(const screen_picture *picture, mns_plane plane)
     return picture->frame ? mns_frame_texture(picture->frame, plane) : 0;
 }
 
-void screen_show(screen *s, const screen_desc *desc)
+static bool is_smaller(const screen_desc *desc)
+{
+    return desc->drawn_width != desc->width || desc->drawn_height != desc->height;
+}
+
+/* The pictures into the framebuffer that is bound, `width` pixels wide. */
+static void draw(screen *s, const screen_desc *desc, int width, int height)
 {
     const GladGLContext *gl = &s->gl;
     const GLuint texture[4] = {texture_of(&desc->a, MNS_PLANE_COLOR), texture_of(&desc->b, MNS_PLANE_COLOR),
                                texture_of(&desc->a, MNS_PLANE_DEPTH), texture_of(&desc->b, MNS_PLANE_DEPTH)};
-    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
-    gl->Viewport(0, 0, desc->width, desc->height);
-    if (!texture[0]) {
-        gl->ClearColor(0.5f, 0.5f, 0.5f, 1);
-        gl->Clear(GL_COLOR_BUFFER_BIT);
-        return;
-    }
+    const double square = 12.0 * width / desc->width;
     for (GLuint i = 0; i < 4; i++) {
         gl->ActiveTexture(GL_TEXTURE0 + i);
         gl->BindTexture(GL_TEXTURE_2D, texture[i]);
-        gl->BindSampler(i, s->sampler[i < 2 && desc->smooth]);
+        gl->BindSampler(i, s->sampler[i < 2 && is_smaller(desc) && width == desc->width]);
     }
+    gl->Viewport(0, 0, width, height);
     gl->UseProgram(s->program);
-    gl->Uniform4f(0, (float)desc->width, (float)desc->height, (float)desc->place, (float)desc->line);
+    gl->Uniform4f(0, (float)width, (float)height, (float)desc->place, (float)desc->line);
     gl->Uniform4f(1, (float)desc->a.gain, (float)desc->b.gain, (float)desc->a.t_unit, (float)desc->b.t_unit);
     gl->Uniform1f(2, (float)desc->scale);
     gl->Uniform1i(3, (GLint)desc->mode);
+    gl->Uniform1f(4, (float)square);
     gl->BindVertexArray(s->vertex_array);
     gl->DrawArrays(GL_TRIANGLES, 0, 3);
     gl->BindVertexArray(0);
@@ -118,6 +123,46 @@ void screen_show(screen *s, const screen_desc *desc)
         gl->BindTexture(GL_TEXTURE_2D, 0);
     }
     gl->ActiveTexture(GL_TEXTURE0);
+}
+
+/* The picture in its own few pixels, in bytes; what a blit makes larger costs a software renderer little. */
+static void make_small(screen *s, int width, int height)
+{
+    const GladGLContext *gl = &s->gl;
+    if (!s->small || s->small_width != width || s->small_height != height) {
+        gl->DeleteTextures(1, &s->small);
+        gl->GenTextures(1, &s->small);
+        gl->BindTexture(GL_TEXTURE_2D, s->small);
+        gl->TexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
+        gl->BindTexture(GL_TEXTURE_2D, 0);
+        s->small_width = width;
+        s->small_height = height;
+    }
+    gl->BindFramebuffer(GL_FRAMEBUFFER, s->small_target);
+    gl->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, s->small, 0);
+}
+
+void screen_show(screen *s, const screen_desc *desc)
+{
+    const GladGLContext *gl = &s->gl;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+    if (!texture_of(&desc->a, MNS_PLANE_COLOR)) {
+        gl->ClearColor(0.5f, 0.5f, 0.5f, 1);
+        gl->Clear(GL_COLOR_BUFFER_BIT);
+        return;
+    }
+    if (!is_smaller(desc) || desc->mode > SCREEN_B) {
+        draw(s, desc, desc->width, desc->height);
+        return;
+    }
+    make_small(s, desc->drawn_width, desc->drawn_height);
+    draw(s, desc, desc->drawn_width, desc->drawn_height);
+    gl->BindFramebuffer(GL_READ_FRAMEBUFFER, s->small_target);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    gl->BlitFramebuffer(0, 0, desc->drawn_width, desc->drawn_height, 0, 0, desc->width, desc->height,
+                        GL_COLOR_BUFFER_BIT, GL_LINEAR);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl->Viewport(0, 0, desc->width, desc->height);
 }
 
 double screen_distance(screen *s, const mns_frame *frame, int width, int height, int x, int y)

@@ -10,6 +10,8 @@ typedef struct screen {
     GladGLContext gl;
     GLuint program, vertex_array, sampler[2]; /* nearest, linear */
     GLuint read_target;
+    GLuint small, small_target; /* a picture with fewer pixels than the window, as it will be seen */
+    int small_width, small_height;
 } screen;
 
 /* A drawn frame as it goes on the window. */
@@ -24,11 +26,11 @@ typedef enum screen_mode { SCREEN_A = 0, SCREEN_B, SCREEN_DIVIDER, SCREEN_DIFFER
 typedef struct screen_desc {
     screen_picture a, b; /* b only where the mode shows it */
     screen_mode mode;
-    int width, height; /* of the window's framebuffer */
-    double place;      /* of the divider, from the left, pixels */
-    double line;       /* its half width, pixels */
-    double scale;      /* difference in scene units that is shown in full */
-    bool smooth;       /* the pictures are smaller than the window */
+    int width, height;             /* of the window's framebuffer */
+    double place;                  /* of the divider, from the left, pixels */
+    double line;                   /* its half width, pixels */
+    double scale;                  /* difference in scene units that is shown in full */
+    int drawn_width, drawn_height; /* of the pictures: smaller than the window while it moves */
 } screen_desc;
 
 /* Loads the functions of the current context and makes what drawing needs; zeroed is nothing. Errors: GL. */

@@ -236,7 +236,7 @@ double subject_step(viewer *v)
         show_field(v, field, v->ahead_frame);
     }
     if (!v->ahead && player_busy(&v->player) < 0) {
-        long next = timeline_next(t, clock_ms(), v->read_ms + v->side[0].ms);
+        long next = timeline_next(t, clock_ms(), v->read_ms + fmin(v->moving_ms[0], v->moving_ms[1]));
         if (next >= 0) player_ask(&v->player, next);
     }
     return due - now;

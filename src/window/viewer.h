@@ -88,12 +88,14 @@ typedef struct viewer {
     side side[SIDES];
     stage stage;
     pace pace;
-    double moved_ms; /* when it last moved */
-    bool held;       /* a hand holds the camera */
-    bool stale;      /* the window shows less than is drawn */
-    int polish;      /* how often more to show the panel before it rests */
-    size_t draws;    /* pictures drawn so far, and put on the window */
+    double moving_ms[2]; /* what the last two pictures took that moved */
+    double moved_ms;     /* when it last moved */
+    bool held;           /* a hand holds the camera */
+    bool stale;          /* the window shows less than is drawn */
+    int polish;          /* how often more to show the panel before it rests */
+    size_t draws;        /* pictures drawn so far, and put on the window */
     size_t shows;
+    double show_ms; /* of putting it there */
     compare_mode compare;
     mns_options other; /* of the second side */
     char other_name[96];

@@ -77,7 +77,10 @@ void viewer_present(viewer *v)
 static void present(viewer *v)
 {
     mns_error error;
+    double start = clock_ms();
     viewer_present(v);
+    v->screen.gl.Finish(); /* the buffers' swap waits for the display: that is nobody's time */
+    v->show_ms = clock_ms() - start;
     if (screen_check(&v->screen, "putting the picture on the window", &error)) viewer_tell_error(v, &error);
     glfwSwapBuffers(v->window);
     spin_shown(&v->spin, clock_ms());
