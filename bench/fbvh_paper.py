@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Gourmel et al.'s tables 1, 4 and 5 again, and the list against the FBVH: fbvh_paper.py paper|against PROGRAM. Called by fbvh.sh."""
+"""Gourmel et al.'s tables 1, 4, 5 and figure 7 again, and the list against the FBVH: fbvh_paper.py paper|against|moving PROGRAM.
+Called by fbvh.sh."""
 import json
 import math
 import os
@@ -15,6 +16,7 @@ SIZE = "640x480"
 STATIONS = 2  # frames of a moving field, places of the eye around one that stands still
 SCENES = ["scattered:30000", "scattered:100000", "tornado:4000", "tornado:128000", "examples/1tii.pdb", "pool:10000"]
 MOVING = ("tornado", "pool")
+SEQUENCES, SEQUENCE = ["tornado:4000", "tornado:128000", "pool:10000", "pool:100000"], 7  # and how many frames
 PUBLISHED = {"scattered:30000": 9.4 / 7.4, "scattered:100000": 4.3 / 3.3, "tornado:4000": 11 / 4.6, "tornado:128000": 2.4 / 1.0,
              "examples/1tii.pdb": 17.7 / 5.8, "pool:10000": 7.1 / 1.9}
 # what is compared, of the scene that the paper tells it of: without it, with it, and their ratio there
@@ -169,8 +171,27 @@ def print_wins(program):
     table(["scene", "size"] + [f"static {h}" for h in heads] + [f"moving {h}" for h in heads], rows)
 
 
+def print_moving(program):
+    """The paper's figure 7: frames one after another, each with its own build, and with the next one's tree built beside it."""
+    rows, last = [], SEQUENCE - 1
+    for scene in SEQUENCES:
+        whole = f"{scene}:1:{SEQUENCE}"
+        alone = [frames(program, [whole], ["--method", "fbvh", "--frame", str(i)])[0] for i in range(1, last)]
+        beside = frames(program, [whole], ["--method", "fbvh", "--frame", f"0:{last}"])[1:last]  # none is built beside the last
+        build = statistics.median(s["ms"]["build"] for s in alone)
+        draw = statistics.median(s["ms"]["total"] - s["ms"]["build"] for s in alone)
+        total = statistics.median(s["ms"]["total"] for s in beside)
+        waits = statistics.median(s["ms"]["build"] for s in beside)
+        rows.append([f"`{scene}`", f"{build:.1f}", f"{draw:.1f}", f"{build + draw:.1f}", f"{total:.1f}", f"{waits:.1f}",
+                     f"{total / (build + draw):.2f}"])
+    table(["scene", "build, ms", "draw, ms", "their sum", "total, the next built beside", "of it waiting for a tree", "ratio"],
+          rows)
+
+
+TABLES = {"paper": [print_first, print_switches], "against": [print_compared, print_wins], "moving": [print_moving]}
+
 if __name__ == "__main__":
-    if len(sys.argv) != 3 or sys.argv[1] not in ("paper", "against"):
-        fail("expected paper or against, and the program")
-    for one in {"paper": [print_first, print_switches], "against": [print_compared, print_wins]}[sys.argv[1]]:
+    if len(sys.argv) != 3 or sys.argv[1] not in TABLES:
+        fail("expected paper, against or moving, and the program")
+    for one in TABLES[sys.argv[1]]:
         one(sys.argv[2])

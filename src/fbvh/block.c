@@ -10,8 +10,11 @@ void work_gather(const work_set *set, const uint32_t *list, size_t count, size_t
         const fbvh_ball *ball = &set->ball[list[i]];
         for (int a = 0; a < 3; a++) block->at[a][n] = ball->position[a];
         block->radius[n] = ball->radius;
-        block->strength[n] = work_strength(set, list[i]);
     }
+    if (set->strength)
+        for (size_t i = 0; i < n; i++) block->strength[i] = set->strength[list[i * step]];
+    else
+        for (size_t i = 0; i < n; i++) block->strength[i] = 1;
     block->count = n;
     for (; n % WORK_LANES; n++) {
         for (int a = 0; a < 3; a++) block->at[a][n] = 2e18f; /* lengths are below 1e18 */

@@ -2,14 +2,15 @@
 #include "fbvh/work.h"
 
 #include <float.h>
+#include <string.h>
 
 enum { BINS_MOST = 16, BINS_FEW = 8, FEW = 256 };
 
 typedef struct bins {
     int count;
     float lo[3], width[3];
-    uint32_t enter[3][BINS_MOST + 1]; /* balls whose extent along the axis begins before the bin */
-    uint32_t leave[3][BINS_MOST + 1]; /* ... and ends before it */
+    int enter[3][BINS_MOST + 1]; /* balls whose extent along the axis begins before the bin */
+    int leave[3][BINS_MOST + 1]; /* ... and ends before it */
 } bins;
 
 /* The own balls of an overlapping tree, whose centres lie in a bin. */
@@ -31,22 +32,32 @@ static float plane_of(const bins *b, int axis, int i)
     return b->lo[axis] + b->width[axis] * (float)i;
 }
 
-/* Few bins: each plane is held against all balls, many at a time. */
+/* Few bins: all their planes are held against all balls, many balls at a time. */
 WORK_WIDE static void compare(const work_set *set, const work_block *block, int axis, bins *b)
 {
-    const float *at = block->at[axis], slack = set->slack;
-    for (int i = 1; i < b->count; i++) {
-        float plane = plane_of(b, axis, i);
-        int enter = 0, leave = 0, n = work_lanes(block);
-        WORK_SIMD(reduction(+ : enter, leave))
-        for (int k = 0; k < n; k++) {
-            float reach = block->radius[k] * WORK_GROW + slack;
-            enter += at[k] - reach <= plane;
-            leave += at[k] + reach < plane;
-        }
-        b->enter[axis][i] = (uint32_t)enter;
-        b->leave[axis][i] = (uint32_t)leave;
+    _Static_assert(BINS_FEW == 8, "seven planes are compared with");
+    const float *at = block->at[axis], *radius = block->radius, slack = set->slack;
+    const float p1 = plane_of(b, axis, 1), p2 = plane_of(b, axis, 2), p3 = plane_of(b, axis, 3);
+    const float p4 = plane_of(b, axis, 4), p5 = plane_of(b, axis, 5), p6 = plane_of(b, axis, 6);
+    const float p7 = plane_of(b, axis, 7);
+    int n1 = 0, n2 = 0, n3 = 0, n4 = 0, n5 = 0, n6 = 0, n7 = 0, n = work_lanes(block);
+    int *enter = b->enter[axis], *leave = b->leave[axis];
+    enter[0] = leave[0] = 0;
+    WORK_SIMD(reduction(+ : n1, n2, n3, n4, n5, n6, n7))
+    for (int k = 0; k < n; k++) {
+        float low = at[k] - (radius[k] * WORK_GROW + slack);
+        n1 += low <= p1, n2 += low <= p2, n3 += low <= p3, n4 += low <= p4;
+        n5 += low <= p5, n6 += low <= p6, n7 += low <= p7;
     }
+    enter[1] = n1, enter[2] = n2, enter[3] = n3, enter[4] = n4, enter[5] = n5, enter[6] = n6, enter[7] = n7;
+    n1 = n2 = n3 = n4 = n5 = n6 = n7 = 0;
+    WORK_SIMD(reduction(+ : n1, n2, n3, n4, n5, n6, n7))
+    for (int k = 0; k < n; k++) {
+        float high = at[k] + (radius[k] * WORK_GROW + slack);
+        n1 += high < p1, n2 += high < p2, n3 += high < p3, n4 += high < p4;
+        n5 += high < p5, n6 += high < p6, n7 += high < p7;
+    }
+    leave[1] = n1, leave[2] = n2, leave[3] = n3, leave[4] = n4, leave[5] = n5, leave[6] = n6, leave[7] = n7;
 }
 
 /* More: every ball is put where it begins and ends. */
@@ -71,15 +82,18 @@ WORK_WIDE static void count(const work_set *set, const work_block *block, int ax
 
 static void fill(const work_set *set, const work_node *node, const work_block *block, bins *b)
 {
-    for (int a = 0; a < 3; a++)
-        for (int i = 0; i <= b->count; i++) b->enter[a][i] = b->leave[a][i] = 0;
     for (int a = 0; a < 3; a++) {
         b->lo[a] = node->lo[a];
         b->width[a] = (node->hi[a] - node->lo[a]) / (float)b->count;
         if (!(b->width[a] > FLT_MIN)) b->width[a] = 0;
-        if (b->width[a] > 0 && b->count == BINS_FEW) compare(set, block, a, b);
-        if (b->width[a] > 0 && b->count != BINS_FEW) count(set, block, a, b);
-        b->enter[a][b->count] = b->leave[a][b->count] = (uint32_t)block->count;
+        if (b->width[a] > 0 && b->count == BINS_FEW) {
+            compare(set, block, a, b);
+        } else {
+            memset(b->enter[a], 0, sizeof b->enter[a]);
+            memset(b->leave[a], 0, sizeof b->leave[a]);
+            if (b->width[a] > 0) count(set, block, a, b);
+        }
+        b->enter[a][b->count] = b->leave[a][b->count] = (int)block->count;
     }
 }
 
@@ -117,22 +131,42 @@ static inline void offer(search *s, float cost, float balls, int axis, float pla
     s->found = true;
 }
 
+typedef struct prices {
+    float cost[3][BINS_MOST],
+        balls[3][BINS_MOST]; /* of the plane before each bin: the cost, and both sides' balls */
+} prices;
+
 /* Children are the halves of the node's box: a ball counts on both sides of a plane that it crosses. */
-static void search_fitted(const work_set *set, const work_node *node, const bins *b, float scale, search *s)
+WORK_WIDE static void weigh_fitted(const work_set *set, const work_node *node, const bins *b, float scale,
+                                   prices *p)
 {
+    const bool square = set->options.cost == FBVH_COST_SQUARE;
     for (int a = 0; a < 3; a++) {
         float width = b->width[a], one = node->hi[(a + 1) % 3] - node->lo[(a + 1) % 3];
         float two = node->hi[(a + 2) % 3] - node->lo[(a + 2) % 3], face = one * two, round = one + two;
-        for (int i = 1; i < b->count && width > 0; i++) {
-            float left = (float)b->enter[a][i] * scale,
-                  right = (float)(b->enter[a][b->count] - b->leave[a][i]) * scale;
+        const int *enter = b->enter[a], *leave = b->leave[a], count = b->count, all = enter[count];
+        float *cost = p->cost[a], *balls = p->balls[a];
+        for (int i = 0; i < count; i++) {
+            float left = (float)enter[i] * scale, right = (float)(all - leave[i]) * scale;
             float area_left = face + round * width * (float)i;
-            float area_right = face + round * width * (float)(b->count - i);
-            float cost = area_left * cost_of(set, left) + area_right * cost_of(set, right);
-            float plane = plane_of(b, a, i);
-            if (plane > node->lo[a] && plane < node->hi[a]) offer(s, cost, left + right, a, plane);
+            float area_right = face + round * width * (float)(count - i);
+            float cost_left = square ? left * left : left, cost_right = square ? right * right : right;
+            cost[i] = area_left * cost_left + area_right * cost_right;
+            balls[i] = left + right;
         }
     }
+}
+
+static void search_fitted(const work_set *set, const work_node *node, const bins *b, float scale, search *s)
+{
+    prices p;
+    weigh_fitted(set, node, b, scale, &p);
+    for (int a = 0; a < 3; a++)
+        for (int i = 1; i < b->count && b->width[a] > 0; i++) {
+            if (!(p.cost[a][i] < s->best)) continue;
+            float plane = plane_of(b, a, i);
+            if (plane > node->lo[a] && plane < node->hi[a]) offer(s, p.cost[a][i], p.balls[a][i], a, plane);
+        }
 }
 
 static void crowd_clear(crowd *c)
@@ -221,11 +255,13 @@ bool work_choose(const work_set *set, const work_node *node, const work_block *b
         middle(node, cut);
         return true;
     }
-    bins b = {.count = block->count < FEW ? BINS_FEW : BINS_MOST};
-    fill(set, node, block, &b);
     float area = box_area(node->lo, node->hi), balls = (float)node->count;
     search s = {.best = area * (cost_of(set, balls) - (float)set->options.traversal_cost),
                 .most = (float)node->references};
+    if (s.best <= 0) return false; /* no two leaves cost less than nothing */
+    bins b;
+    b.count = block->count < FEW ? BINS_FEW : BINS_MOST;
+    fill(set, node, block, &b);
     if (set->options.kind == FBVH_FITTED)
         search_fitted(set, node, &b, (float)step, &s);
     else

@@ -36,22 +36,23 @@ static bool shrink(work_node *node, const work_side *side)
     return true;
 }
 
-/* Keeps what reaches the leaf's box, finds S+ of it, and fits the box. False: no surface in it. gathered: the
- * block holds the list. */
+/* Keeps what reaches the leaf's box, finds S+ of it, and fits the box. False: no surface in it. *gathered:
+ * the block holds the list, before and after. */
 static bool sift_fitted(const work_set *set, work_node *node, uint32_t *list, work_block *block,
-                        bool gathered)
+                        bool *gathered)
 {
     unsigned char taken[WORK_BLOCK];
     work_side side = work_side_none();
     for (size_t first = 0; first < node->count; first += WORK_BLOCK) {
         size_t count = node->count - first < WORK_BLOCK ? node->count - first : WORK_BLOCK;
-        if (!gathered) work_gather(set, list + first, count, 1, block);
+        if (!*gathered) work_gather(set, list + first, count, 1, block);
         work_take(set, block, node->lo, node->hi, node->span, taken, &side);
         for (size_t i = 0; i < count; i++) {
             list[side.count] = list[first + i];
             side.count += taken[i];
         }
     }
+    *gathered = side.count == node->count && node->count <= WORK_BLOCK;
     node->count = node->own = side.count;
     node->span = work_span(set, side.sum);
     return side.count && node->span >= 0 && (set->options.no_fit || shrink(node, &side));
@@ -118,15 +119,15 @@ static size_t discard(const work_set *set, work_node *node, uint32_t *list)
 
 size_t work_leaf(const work_set *set, work_node *node, uint32_t *list, work_block *block, size_t *discarded)
 {
-    bool fitted = set->options.kind == FBVH_FITTED;
+    bool fitted = set->options.kind == FBVH_FITTED, gathered = node->count <= WORK_BLOCK;
     *discarded = 0;
-    if (!(fitted ? sift_fitted(set, node, list, block, node->count <= WORK_BLOCK)
-                 : sift_overlapping(set, node, list)))
+    if (!(fitted ? sift_fitted(set, node, list, block, &gathered) : sift_overlapping(set, node, list)))
         return 0;
     if (!set->options.no_discard && node->count <= set->options.discard_most)
         *discarded = discard(set, node, list);
+    if (*discarded) gathered = false;
     /* A smaller box leaves fewer balls, and those a smaller box: twice gets nearly all of it. */
-    if (fitted && !sift_fitted(set, node, list, block, false)) return 0;
+    if (fitted && !sift_fitted(set, node, list, block, &gathered)) return 0;
     for (size_t i = node->own; i < node->count; i++) list[i] |= FBVH_SPLIT;
     return node->count;
 }
