@@ -4,7 +4,7 @@ file(GLOB MNS_WINDOW_SOURCES CONFIGURE_DEPENDS src/window/*.c)
 if(GLFW_FOUND)
   list(FILTER MNS_WINDOW_SOURCES EXCLUDE REGEX "window_missing\\.c$")
 else()
-  set(MNS_WINDOW_SOURCES src/window/window_missing.c)
+  list(FILTER MNS_WINDOW_SOURCES INCLUDE REGEX "/(window_missing|camera|pace|timeline|player|script)\\.c$")
 endif()
 
 # C++ is asked for only where it has something to do: the fuzzers and mixed sanitizers do without.

@@ -154,8 +154,8 @@ mns_status action_sleep_ms(viewer *v, const words *w, mns_error *error)
 mns_status action_tell(viewer *v, const words *w, mns_error *error)
 {
     (void)error;
-    viewer_tell(v, "%.400s: drew %zu, showed %zu, frame %ld, dropped %ld, %dx%d, last in %.1f ms", w->text,
+    viewer_tell(v, "%.80s: drew %zu, showed %zu, frame %ld, dropped %ld, %dx%d, last in %.1f ms %s", w->text,
                 v->draws, v->shows, v->timeline.shown, v->timeline.dropped, v->width, v->height,
-                v->side[0].ms);
+                v->side[0].ms, v->hover.is_on ? v->hover.text : "");
     return MNS_OK;
 }

@@ -120,6 +120,8 @@ typedef struct viewer {
 /* window.c: one line for the user: in the title, the panel and on the terminal. */
 void viewer_tell(viewer *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void viewer_tell_error(viewer *v, const mns_error *error);
+/* open.c: makes the window and its context, current from then on. Errors: GL. */
+mns_status viewer_open_window(viewer *v, mns_error *error);
 /* The size of the window's framebuffer. */
 void viewer_resize(viewer *v, int width, int height);
 /* Wakes the loop, from whichever thread. */

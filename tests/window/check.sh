@@ -106,10 +106,15 @@ fi
 # ---- Two methods, the divider, the error against the truth.
 view $'compare divider\nother fbvh:exact\nrest\ngrab middle.png\ndrag 0 160 120 60 120\ngrab left.png
 compare difference\nrest\ngrab difference.png\nnext other\ncompare flicker\nsleep 900\ntell flickered\ncompare off\ncheck\nrest
-hover\nmove 160 120\nsleep 200\ngrab hover.png\nquit' scattered:500 "${size[@]}"
+hover\nmove 160 120\nsleep 200\ntell hover\ncentre 160 120\nset color-by nothing\nrest\nmove 161 121\nmove 160 120\nsleep 200\ntell centred\nquit' scattered:500 "${size[@]}"
 ! cmp -s middle.png left.png || complain "the divider stays where it was"
 ! cmp -s middle.png difference.png || complain "the difference is not shown"
 grep -q 'against the reference: 0 missed, 0 invented, 0 wrong roots' log || complain "no error told: $(cat log)"
+[[ $(grep -c -E '^(hover|centred): .* at .*: density 0\.(2|20000.*|19999.*), ball [0-9]+' log) -eq 2 ]] ||
+    complain "nothing is said of what is under the cursor: $(cat log)"
+point() { sed -n "s/^$1: .* at \([-0-9.e, ]*\): density.*/\1/p" log; }
+awk -v a="$(point hover)" -v b="$(point centred)" 'BEGIN { split(a, p, ", "); split(b, q, ", ");
+    for (i = 1; i <= 3; i++) if ((p[i] - q[i]) ^ 2 > 1e-4) exit 1 }' || complain "centre does not centre: $(cat log)"
 [[ $(sed -n 's/^flickered: .*showed \([0-9]*\),.*/\1/p' log) -ge 4 ]] || complain "it does not flicker: $(cat log)"
 
 # ---- A sequence: played, dropped frames told, a frame by its number is that of render.
@@ -120,6 +125,7 @@ render "$dam" "$dam" "${size[@]}" --radius 2.2 --color-by vz --frame 1 -o expect
 same frame.png expected.png "a frame of a sequence"
 [[ $(sed -n 's/^played: drew \([0-9]*\),.*/\1/p' log) -ge 3 ]] || complain "it does not play: $(cat log)"
 grep -q '^back: .*frame 0,' log || complain "it does not step: $(cat log)"
+view $'panel\nrest\nopen drop:100:1:3\nrest\nstep 1\nrest\npanel\nopen scattered:50\nrest\nopen examples\npanel\nrest\nquit' scattered:30 "${size[@]}"
 view $'set method fbvh\nrest\nplay\nsleep 900\ntell fbvh\nset method tile\nsleep 300\nset method fbvh\nsleep 300\nopen scattered:50\nrest\nquit' \
     drop:3000:1:20 "${size[@]}"
 [[ $(sed -n 's/^fbvh: drew \([0-9]*\),.*/\1/p' log) -ge 2 ]] || complain "it does not play by trees: $(cat log)"
