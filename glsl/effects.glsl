@@ -1,8 +1,7 @@
 // What light does beyond each pixel's first hit, to its colour and its terms, from the list of pixels that see a surface. Compute
-// shader, in two parts. The first finishes the pixels that need no ray, and lists the others; the second (RAYS_NOW) leads their walks,
-// an entry of a list each: it traces a ray, uses what was found, looks for the next, and goes on until the walk ends, or the dispatch
-// has done enough, or float cannot decide; that ray is asked in doubles (effects_resolve.glsl). What waits is listed anew by every
-// dispatch, so that groups are full.
+// shader. Without rays (RAYS_NOW) it is done at once. With them an invocation leads the walk of an entry of a list: it traces a ray, uses
+// what was found, looks for the next, and goes on until the walk ends, or the dispatch has done enough, or float cannot decide; that ray
+// is asked in doubles (effects_resolve.glsl). What waits is listed anew by every dispatch, so that groups are full.
 #include "real.glsl"
 #define UINT uint
 #include "density.glsl"
@@ -25,16 +24,12 @@
 void main()
 {
     uint index = path_index();
-    if (index >= count_unfinished) return;
-    uint pixel = path_pixels[index];
+    if (index >= redo_count) return;
+    uint pixel = redo_entry[index].x;
     ivec2 at = ivec2(pixel & 0xffffu, pixel >> 16u);
     begin(at);
-    if (path_next()) {
-        uint slot = atomicAdd(redo_count, 1u);
-        redo_entry[slot] = uvec4(pixel, slot, 0u, 0u);
-    } else {
-        finish(at);
-    }
+    path_next();
+    finish(at);
 }
 #else
 #include "paths_store.glsl"

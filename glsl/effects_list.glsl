@@ -1,5 +1,5 @@
-// The pixels that see a surface, one after the other; those that see none are lit already. So the passes that follow, whose text is
-// long, run on full groups. Compute shader, a pixel an invocation, eight neighbours a block of 4x2 pixels.
+// The pixels that see a surface, one after the other, as entries that have not been begun (paths_store.glsl); those that see none are lit already. So the
+// passes that follow, whose text is long, run on full groups. Compute shader, a pixel an invocation, eight neighbours a block of 4x2 pixels.
 #include "real.glsl"
 #define LIGHTING_BLOCK 2
 #include "lighting.glsl"
@@ -18,6 +18,7 @@ void main()
         vec3 color = environment_color(vec3(path_first_way(vec2(at) + 0.5)));
         paths_write(at, vec4(color * background.a, background.a), vec4(1.0, 1.0, PATH_NOTHING, PATH_NOTHING), true);
     } else {
-        path_pixels[atomicAdd(count_unfinished, 1u)] = uint(at.x) | uint(at.y) << 16u;
+        uint slot = atomicAdd(redo_count, 1u);
+        redo_entry[slot] = uvec4(uint(at.x) | uint(at.y) << 16u, slot, 0u, 0u);
     }
 }

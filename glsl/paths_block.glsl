@@ -25,5 +25,5 @@ layout(std140, binding = 1) uniform Paths {
 dvec3 path_first_way(vec2 position)
 {
     dvec3 raw = path_corner.xyz + double(position.x) * path_step_x.xyz + double(position.y) * path_step_y.xyz;
-    return raw / sqrt(dot(raw, raw));
+    return raw * (1.0LF / sqrt(dot(raw, raw)));
 }

@@ -14,10 +14,6 @@ layout(binding = 3, r32f) writeonly uniform image2D plane_settled;
 #ifdef RAYS_NOW
 layout(location = 4) uniform uvec4 path_lists; // of redo_entry: this dispatch's first, where those go that wait in float, and those for
                                                // doubles; how many are this dispatch's
-#else
-layout(std430, binding = 0) buffer PathPixels {
-    uint path_pixels[]; // x + 65536 y; as many as count_unfinished says
-};
 #endif
 
 void paths_write(ivec2 at, vec4 lit, vec4 terms, bool settled)

@@ -118,8 +118,8 @@ bool piece_may(REAL s, REAL stop, REAL side)
 
 #ifdef PATHS
 // Of a ray that leaves the surface at s, on a piece that piece_may did not refuse: up to where the field surely is on the ray's side,
-// but for the start itself; s where rounding could decide. b[0] is zero, to rounding, and the first slope says that it falls; half of
-// that over a bound on the second derivative is a way on which it does not turn.
+// but for the start itself; s where rounding could decide. b[0] is zero, to rounding, and the first slope says that it falls; that
+// over a bound on the second derivative is a way on which it does not turn.
 REAL piece_leave(REAL s, REAL stop, REAL side)
 {
     REAL doubt = piece_margin + abs(piece_b[0]);
@@ -134,9 +134,9 @@ REAL piece_leave(REAL s, REAL stop, REAL side)
     bend *= NUM(DEGREE * (DEGREE - 1));
     REAL slope = NUM(DEGREE) * (piece_b[1] - piece_b[0]);
     if (!(slope < NUM(0.0))) return s;
-    REAL x = NUM(-0.5) * slope / max(bend, NUM(-0.5) * slope);
+    REAL x = -slope / max(bend, -slope);
     REAL value = piece_b[0] + x * (slope + NUM(0.5) * bend * x);
-    return value < NUM(-2.0) * doubt ? s + x * (stop - s) : s;
+    return value < NUM(-2.0) * piece_margin ? s + x * (stop - s) : s;
 }
 #endif
 

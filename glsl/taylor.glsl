@@ -98,9 +98,9 @@ REAL piece_leave(REAL s, REAL stop, REAL side)
     REAL doubt = taylor_margin + abs(at.value);
     if (doubt > LEAVE_DOUBT * taylor_margin || !(at.slope < NUM(0.0))) return s;
     REAL bend = max(taylor_rise, taylor_sink);
-    REAL h = min(NUM(-0.5) * at.slope / bend, stop - s);
+    REAL h = min(-at.slope / bend, stop - s);
     REAL value = at.value + h * (at.slope + NUM(0.5) * bend * h);
-    return value < NUM(-3.0) * doubt ? s + h : s;
+    return value < NUM(-3.0) * taylor_margin ? s + h : s;
 }
 #endif
 

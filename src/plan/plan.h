@@ -193,7 +193,7 @@ typedef enum plan_shader {
     SHADER_TREE_WALK,    /* fbvh_resolve.glsl in float */
     SHADER_TREE_RESOLVE, /* and in doubles */
     SHADER_EFFECTS_LIST,
-    SHADER_EFFECTS_BEGIN,
+    SHADER_EFFECTS_PLAIN,   /* effects.glsl without rays */
     SHADER_EFFECTS,         /* effects.glsl with rays */
     SHADER_EFFECTS_RESOLVE, /* and in doubles */
     SHADER_SHADE,

@@ -16,10 +16,12 @@ typedef struct shader_part {
 #define READS_PATH                                                                                           \
     (FEATURE_KERNEL | FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_OVERLAPS | FEATURE_TEXELS |                \
      FEATURE_EYE_INSIDE | FEATURE_EYE_ON)
+#define READS_LIT                                                                                            \
+    (FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_SPECULAR | FEATURE_MIRROR | FEATURE_FRESNEL |   \
+     FEATURE_ENVIRONMENT | FEATURE_SKY)
 #define READS_WALK                                                                                           \
-    (FEATURE_RAYS | FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_SPECULAR | FEATURE_SHADOWS |     \
-     FEATURE_SOFT_SHADOWS | FEATURE_MIRROR | FEATURE_FRESNEL | FEATURE_REFRACTION | FEATURE_ABSORPTION |     \
-     FEATURE_OCCLUSION | FEATURE_ENVIRONMENT | FEATURE_SKY)
+    (READS_LIT | FEATURE_SHADOWS | FEATURE_SOFT_SHADOWS | FEATURE_REFRACTION | FEATURE_ABSORPTION |          \
+     FEATURE_OCCLUSION)
 #define READS_BILLBOARD (FEATURE_RADII | FEATURE_FAR | FEATURE_CLIP_ZERO)
 
 static const shader_part parts[SHADER_COUNT] = {
@@ -43,7 +45,7 @@ static const shader_part parts[SHADER_COUNT] = {
     [SHADER_TREE_WALK] = {NULL, NULL, "fbvh_resolve.glsl", READS_TREE},
     [SHADER_TREE_RESOLVE] = {NULL, NULL, "fbvh_resolve.glsl", READS_TREE},
     [SHADER_EFFECTS_LIST] = {NULL, NULL, "effects_list.glsl", FEATURE_ENVIRONMENT | FEATURE_SKY},
-    [SHADER_EFFECTS_BEGIN] = {NULL, NULL, "effects.glsl", READS_WALK},
+    [SHADER_EFFECTS_PLAIN] = {NULL, NULL, "effects.glsl", READS_LIT},
     [SHADER_EFFECTS] = {NULL, NULL, "effects.glsl", READS_WALK | READS_PATH},
     [SHADER_EFFECTS_RESOLVE] = {NULL, NULL, "effects_resolve.glsl",
                                 (READS_WALK | READS_PATH) & ~(uint64_t)FEATURE_TEXELS},
@@ -162,7 +164,7 @@ static uint64_t add_paths(const mns_plan *plan, plan_shader shader, char *define
 {
     add(defines, "PATHS", 1);
     add(defines, "PATH_STACK", path_stack(plan, f));
-    if (shader == SHADER_EFFECTS_BEGIN) return f;
+    if (shader == SHADER_EFFECTS_PLAIN) return f;
     add(defines, "RAYS_NOW", 1);
     if (f & (FEATURE_EYE_INSIDE | FEATURE_EYE_ON | FEATURE_REFRACTION)) add(defines, "BOTH_SIDES", 1);
     add(defines, "KERNEL", (int)(f & FEATURE_KERNEL));
@@ -187,7 +189,7 @@ void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[
     uint64_t f = plan->features & parts[shader].reads;
     if (f & FEATURE_LIT) f = FEATURE_LIT; /* all that is left is to weight what it finds */
     defines[0] = '\0';
-    if (shader >= SHADER_EFFECTS_BEGIN && shader <= SHADER_EFFECTS_RESOLVE)
+    if (shader >= SHADER_EFFECTS_PLAIN && shader <= SHADER_EFFECTS_RESOLVE)
         f = add_paths(plan, shader, defines, f);
     if (shader == SHADER_CAST || shader == SHADER_WALK || shader == SHADER_RESOLVE || is_tree(shader))
         add_ray(plan, shader, defines, f);
@@ -211,7 +213,8 @@ bool plan_needs(const mns_plan *plan, plan_shader shader)
     uint64_t f = plan->features;
     if (f & FEATURE_REFERENCE) return shader == SHADER_SHADE;
     if (shader == SHADER_EFFECTS || shader == SHADER_EFFECTS_RESOLVE) return f & FEATURE_RAYS;
-    if (shader == SHADER_EFFECTS_LIST || shader == SHADER_EFFECTS_BEGIN) return f & FEATURE_LIT;
+    if (shader == SHADER_EFFECTS_LIST) return f & FEATURE_LIT;
+    if (shader == SHADER_EFFECTS_PLAIN) return f & FEATURE_LIT && !(f & FEATURE_RAYS);
     if (is_tree(shader)) return f & FEATURE_TREE;
     if (f & FEATURE_TREE && shader < SHADER_TREE) return false;
     if (f & FEATURE_TILES && shader < SHADER_SHUFFLE) return false;

@@ -20,7 +20,7 @@ static mns_status light_region(draw *d, list_region region, mns_error *error)
 {
     mns_renderer *r = d->r;
     shade_walks walks;
-    shade_effects_begin(&r->effects, &r->passes, &r->device, d->program, region, &walks);
+    shade_effects_begin(&r->passes, &r->device, d->program, region, &walks);
     while (walks.waiting || walks.waiting_wide) {
         bool wide = !walks.waiting;
         if (wide) {

@@ -20,7 +20,7 @@ enum {
 };
 
 #define ENTRY_BYTES ((size_t)16)
-#define STORE_BYTES ((size_t)32 << 20) /* of walks that wait: a larger frame is lit in parts */
+#define STORE_BYTES ((size_t)64 << 20) /* of walks that wait: a larger frame is lit in parts */
 
 /* Beyond this distance from the field a light is moved nearer, in its direction and in proportion: floats
  * square it, and nothing of it is seen to change. */
@@ -195,11 +195,10 @@ mns_status shade_effects_reserve(shade_effects *e, list_passes *p, gl_device *de
                                  size_t pixels, mns_error *error)
 {
     size_t most = plan->limits.max_storage_block;
-    mns_status status =
-        gl_buffer_reserve(device, &e->pixels, "lit pixels", pixels * sizeof(uint32_t), most, error);
-    if (status || !(plan->features & FEATURE_RAYS)) return status;
+    if (!(plan->features & FEATURE_RAYS)) return MNS_OK;
     e->room = pixels;
-    status = gl_buffer_reserve(device, &e->store, "light's ways", pixels * walk_bytes(plan), most, error);
+    mns_status status =
+        gl_buffer_reserve(device, &e->store, "light's ways", pixels * walk_bytes(plan), most, error);
     size_t entries = LISTS * pixels * ENTRY_BYTES;
     return status ? status
                   : gl_buffer_reserve(device, &p->redo, "list of pixels to resolve",
@@ -246,24 +245,24 @@ static void dispatch(gl_device *device, size_t count)
     device->gl.DispatchCompute(groups < most ? groups : most, (groups + most - 1) / most, 1);
 }
 
-void shade_effects_begin(shade_effects *e, list_passes *p, gl_device *device,
-                         const GLuint program[SHADER_COUNT], list_region region, shade_walks *walks)
+void shade_effects_begin(list_passes *p, gl_device *device, const GLuint program[SHADER_COUNT],
+                         list_region region, shade_walks *walks)
 {
     const GladGLContext *gl = &device->gl;
     const list_counts none = {0};
     list_counts counts;
     *walks = (shade_walks){0};
     clear(p, device, &none);
-    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, e->pixels.id);
     gl->UseProgram(program[SHADER_EFFECTS_LIST]);
     gl->Uniform4i(UNIFORM_REGION, region.x, region.y, region.x + region.width, region.y + region.height);
     gl->DispatchCompute((GLuint)(region.width + 7) / 8, (GLuint)(region.height + 7) / 8, 1);
     trace_finish(p, device, &counts);
-    if (!counts.unfinished) return;
-    gl->UseProgram(program[SHADER_EFFECTS_BEGIN]);
-    dispatch(device, counts.unfinished);
-    trace_finish(p, device, &counts);
     walks->waiting = counts.redo;
+    if (!counts.redo || program[SHADER_EFFECTS]) return;
+    gl->UseProgram(program[SHADER_EFFECTS_PLAIN]);
+    dispatch(device, counts.redo);
+    trace_finish(p, device, &counts);
+    walks->waiting = 0;
 }
 
 void shade_effects_go_on(shade_effects *e, trace_passes *t, list_passes *p, gl_device *device, GLuint program,
@@ -294,7 +293,6 @@ void shade_effects_go_on(shade_effects *e, trace_passes *t, list_passes *p, gl_d
 void shade_effects_free(shade_effects *e, gl_device *device)
 {
     gl_buffer_free(device, &e->block);
-    gl_buffer_free(device, &e->pixels);
     gl_buffer_free(device, &e->store);
     drop_map(e, device);
     *e = (shade_effects){0};

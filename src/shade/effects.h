@@ -8,10 +8,10 @@
 
 /* Its GL objects. Zeroed is empty. */
 typedef struct shade_effects {
-    gl_buffer block, pixels, store; /* lights and numbers; those that see a surface; walks that wait */
-    size_t room;                    /* walks that can wait */
-    GLuint map;                     /* the environment's */
-    char *map_name;                 /* of its file, as that was when it was read: */
+    gl_buffer block, store; /* lights and numbers; walks that wait */
+    size_t room;            /* walks that can wait */
+    GLuint map;             /* the environment's */
+    char *map_name;         /* of its file, as that was when it was read: */
     struct timespec map_time;
     off_t map_size;
 } shade_effects;
@@ -43,8 +43,8 @@ mns_status shade_effects_reserve(shade_effects *e, list_passes *p, gl_device *de
 void shade_effects_bind(shade_effects *e, trace_passes *t, list_passes *p, gl_device *device,
                         const mns_plan *plan, const gl_buffer *shading, const shade_planes *planes);
 /* Begins the walks of a region's pixels. */
-void shade_effects_begin(shade_effects *e, list_passes *p, gl_device *device,
-                         const GLuint program[SHADER_COUNT], list_region region, shade_walks *walks);
+void shade_effects_begin(list_passes *p, gl_device *device, const GLuint program[SHADER_COUNT],
+                         list_region region, shade_walks *walks);
 /* Goes on with all that wait in float; or with those that wait for doubles (`wide`, effects_resolve.glsl). */
 void shade_effects_go_on(shade_effects *e, trace_passes *t, list_passes *p, gl_device *device, GLuint program,
                          bool wide, shade_walks *walks);
