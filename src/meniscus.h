@@ -515,6 +515,10 @@ typedef struct mns_stats {
     uint64_t pixels_hit, pixels_undecided;
     uint64_t effects_rays;      /* traced beyond the first hit */
     uint64_t effects_undecided; /* pixels of which some of those could not be decided */
+    /* What sampling leaves of noise in the image that mns_frame_read gave last, all its samples counted: the
+     * root mean square over the hits of the standard error that as many independent rays would leave, in the
+     * share of the lights and in that of the ambient light; 0 where nothing is sampled. */
+    double noise_shadow, noise_occlusion;
     uint64_t list_nodes;        /* fragments gathered */
     double list_mean, list_p99; /* nodes a non-empty pixel */
     uint64_t list_max;

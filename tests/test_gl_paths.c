@@ -279,6 +279,33 @@ static void however_a_walk_is_led_it_ends_the_same(void **state)
     mns_field_destroy(field);
 }
 
+/* Noise goes by the root of the rays, in however many samples of the pixel they come. */
+static void noise_is_told_of_what_is_sampled(void **state)
+{
+    draw_fixture *d = *state;
+    mns_field *field = draw_generated("dense:500", MNS_KERNEL_DEFAULT);
+    double shadow = 0, occlusion = 0;
+    for (int k = 0; k < 3; k++) {
+        look_case look = soft;
+        mns_options options = {.method = MNS_METHOD_FBVH, .samples = k == 2 ? 4 : 1};
+        look.look.effects.shadow_samples *= k == 1 ? 4 : 1;
+        look.look.effects.occlusion_rays *= k == 1 ? 4 : 1;
+        mns_image_destroy(draw_image(d, field, &small, &look.look, &options));
+        const mns_stats *s = mns_frame_stats(d->frame);
+        if (k == 0) {
+            shadow = s->noise_shadow, occlusion = s->noise_occlusion;
+            assert_true(shadow > 0.01 && shadow < 0.5 && occlusion > 0.01 && occlusion < 0.5);
+            continue;
+        }
+        assert_true(fabs(s->noise_shadow / shadow - 0.5) < 0.1);
+        assert_true(fabs(s->noise_occlusion / occlusion - 0.5) < 0.1);
+    }
+    mns_image_destroy(draw_image(d, field, &small, &hard.look, NULL));
+    assert_true(mns_frame_stats(d->frame)->noise_shadow == 0 &&
+                mns_frame_stats(d->frame)->noise_occlusion == 0);
+    mns_field_destroy(field);
+}
+
 static void what_has_no_rays_builds_no_tree(void **state)
 {
     draw_fixture *d = *state;
@@ -303,6 +330,7 @@ int main(void)
         cmocka_unit_test(colours_cel_and_samples_are_the_truths),
         cmocka_unit_test(a_map_stands_around_the_scene),
         cmocka_unit_test(however_a_walk_is_led_it_ends_the_same),
+        cmocka_unit_test(noise_is_told_of_what_is_sampled),
         cmocka_unit_test(what_has_no_rays_builds_no_tree),
     };
     return cmocka_run_group_tests_name("light's ways", tests, draw_fixture_setup, draw_fixture_teardown);

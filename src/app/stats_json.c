@@ -181,6 +181,8 @@ json_t *stats_json_frame(const stats_frame *frame)
     json_object_set_new(object, "left_out", left_out(frame->plan));
     json_object_set_new(object, "warnings", warnings(frame->plan));
     json_object_set_new(object, "fallbacks", fallbacks(s));
+    json_object_set_new(object, "noise",
+                        json_pack("{s:f, s:f}", "shadow", s->noise_shadow, "occlusion", s->noise_occlusion));
     json_object_set_new(object, "work", work(s));
     json_object_set_new(object, "tree", tree(s));
     json_object_set_new(object, "color", legend(s));

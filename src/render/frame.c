@@ -240,6 +240,7 @@ mns_status mns_frame_read(mns_frame *f, mns_image **result, mns_error *error)
         mns_image_destroy(image);
         return status;
     }
+    frame_measure_noise(f, image);
     f->stats.ms[MNS_PHASE_READBACK] = clock_ms() - begin;
     *result = image;
     return MNS_OK;

@@ -72,6 +72,8 @@ mns_status frame_prepare(mns_frame *frame, const mns_plan *plan, mns_error *erro
 /* Floats into a texture of the frame's size, rows from the bottom, whatever rows the host's
  * own textures come in. */
 void frame_send(mns_frame *frame, GLuint texture, GLenum format, const float *data);
+/* Takes the noise of the terms that were read into the frame's figures. */
+void frame_measure_noise(mns_frame *frame, const mns_image *image);
 /* The planes' distances from the field's unit to the one in which they are told. Errors: MEMORY. */
 mns_status frame_leave_unit(mns_frame *frame, const mns_plan *plan, mns_error *error);
 
