@@ -57,8 +57,9 @@ static void expect_numbers(const json_t *object, const char *const *key, size_t 
     }
 }
 
-static const char *const PHASE[] = {"load", "sort",   "bin",   "upload", "core_depth", "gather", "build",
-                                    "cast", "normal", "trace", "shade",  "readback",   "encode", "total"};
+static const char *const PHASE[] = {"load",    "sort",  "bin",      "upload", "core_depth",
+                                    "gather",  "build", "cast",     "normal", "trace",
+                                    "effects", "shade", "readback", "encode", "total"};
 
 static void expect_text(const json_t *root, const char *key, const char *expected)
 {
@@ -95,6 +96,7 @@ static void statistics_hold_every_key_of_the_design(void **state)
     static const char *const fallback_key[] = {"pool_grown",      "tiled",    "lists_sorted",
                                                "active_overflow", "root_cap", "undecided_float"};
     static const char *const memory_key[] = {"peak_rss_bytes"};
+    static const char *const noise_key[] = {"shadow", "occlusion"};
     cli *c = *state;
     cli_run(c,
             "render two.csv -o x.png --size 40x30 --method list --stats s.json --backend %s --solver cubic",
@@ -112,6 +114,7 @@ static void statistics_hold_every_key_of_the_design(void **state)
     expect_numbers(json_object_get(root, "lists"), list_key, 3);
     expect_numbers(json_object_get(root, "memory"), memory_key, 1);
     expect_numbers(json_object_get(root, "fallbacks"), fallback_key, 6);
+    expect_numbers(json_object_get(root, "noise"), noise_key, 2);
     assert_true(json_number_value(json_object_get(json_object_get(root, "memory"), "peak_rss_bytes")) > 1e6);
     assert_true(json_number_value(json_object_get(json_object_get(root, "ms"), "total")) > 0);
     assert_int_equal(json_integer_value(json_object_get(counts, "balls")), 2);
