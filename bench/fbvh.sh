@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The tables of fbvh.md, measured here and now: bench/fbvh.sh [build|static|counters|paper|moving|against]... (default: all). Nothing else
-# should run meanwhile. Needs what ./run test installs, g++ and python3.
+# The tables of fbvh.md, measured here and now: bench/fbvh.sh [build|static|counters|paper|moving|against]... (default: all).
+# Nothing else should run meanwhile. Needs what ./run test installs, g++ and python3.
 set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/.."
 # shellcheck source=SCRIPTDIR/yardstick.sh
