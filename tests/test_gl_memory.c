@@ -199,7 +199,8 @@ int main(void)
     puts("the sanitizer keeps what was freed: memory cannot be measured under it");
     return 77;
 #endif
-    if (setenv("MESA_SHADER_CACHE_DISABLE", "true", 1) != 0) return 1; /* holds programs, and writes on a thread */
+    if (setenv("MESA_SHADER_CACHE_DISABLE", "true", 1) != 0)
+        return 1; /* holds programs, and writes on a thread */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(three_hundred_frames_need_no_more_than_twenty),
         cmocka_unit_test(renderers_leave_nothing_behind),
