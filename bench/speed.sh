@@ -9,7 +9,10 @@ source bench/yardstick.sh >&2
 
 program=${MENISCUS:-build/release/meniscus} # one built before, or this tree's
 [[ -n ${MENISCUS-} ]] || { cmake --preset release && cmake --build --preset release --target meniscus_program; } >&2
-export MESA_SHADER_CACHE_DISABLE=true # a warm cache would hide what the first frame costs
+# Medians leave the first frame out, so compilers are waited for once; in a folder of their own, as bench/start.sh has them.
+folder=$(mktemp -d)
+trap 'rm -r "$folder"' EXIT
+export XDG_CACHE_HOME=$folder MESA_SHADER_CACHE_DIR=$folder
 export SCENES LIMIT PYTHONDONTWRITEBYTECODE=1
 LIMIT_VECTORS=$(yardstick_vectors)
 export LIMIT_VECTORS
@@ -18,7 +21,7 @@ tables=() scenes=()
 for argument in "$@"; do
     case $argument in
     ratios | paper | large | growth) tables+=("$argument") ;;
-    auto) exec bench/auto.sh "${@:2}" ;;
+    auto) rm -r "$folder" && exec bench/auto.sh "${@:2}" ;;
     *) scenes+=("$argument") ;;
     esac
 done
