@@ -228,6 +228,38 @@ static void any_number_of_threads_gives_the_same(void **state)
     mns_field_destroy(field);
 }
 
+/* The nearest in order; behind them the rest, in the order of the field; and once that is sorted, all. */
+static void a_part_is_the_nearest(void **state)
+{
+    (void)state;
+    scene s = scene_of("scattered:60000", &views[0]);
+    mns_field *field = scene_field(&s);
+    mns_plan *plan = scene_plan(&s, field);
+    list_order all = order_of(field, plan), part = {0};
+    static const size_t near[] = {1, 7000, 59000};
+    for (size_t k = 0; k < 3; k++) {
+        size_t sorted = 0;
+        for (int threads = 1; threads <= 4; threads++) {
+            omp_set_num_threads(threads);
+            assert_int_equal(list_order_make(&part, field, plan, near[k], NULL), MNS_OK);
+            assert_true(part.count == all.count && part.in_view == all.count && part.size == all.size);
+            assert_true(part.sorted >= near[k] && part.sorted <= near[k] + 600);
+            assert_true(threads == 1 || part.sorted == sorted);
+            sorted = part.sorted;
+            assert_memory_equal(part.key, all.key, sorted * sizeof *all.key);
+            for (size_t i = sorted + 1; i < part.count; i++)
+                assert_true((uint32_t)part.key[i - 1] < (uint32_t)part.key[i]);
+            list_order_finish(&part);
+            assert_int_equal(part.sorted, all.count);
+            assert_memory_equal(part.key, all.key, all.count * sizeof *all.key);
+        }
+    }
+    list_order_free(&part);
+    list_order_free(&all);
+    mns_plan_destroy(plan);
+    mns_field_destroy(field);
+}
+
 /* A point's side in pixels: the widest the ball's image can be, between the tangents from the eye. */
 static double image_size(const view_frame *frame, vec3 centre, double radius)
 {
@@ -317,6 +349,7 @@ int main(void)
         cmocka_unit_test(the_nearest_come_first),
         cmocka_unit_test(equal_distances_keep_the_fields_order),
         cmocka_unit_test(any_number_of_threads_gives_the_same),
+        cmocka_unit_test(a_part_is_the_nearest),
         cmocka_unit_test(points_hold_the_balls_drawn_as_such),
         cmocka_unit_test(without_points_all_are_rectangles),
         cmocka_unit_test(an_order_can_be_made_again),

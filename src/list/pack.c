@@ -16,7 +16,7 @@ void list_pack_high(const list_order *order, list_chosen chosen, const mns_field
 {
     size_t stride = plan->ball_floats;
     bool radii = plan->features & FEATURE_RADII, strengths = plan->features & FEATURE_STRENGTHS;
-#pragma omp parallel for if (chosen.count > ORDER_ALONE)
+#pragma omp parallel for if (order->in_view > ORDER_ALONE)
     for (size_t i = 0; i < chosen.count; i++) {
         const list_ball *ball = ball_at(order, chosen, i);
         float *to = out + i * stride;
@@ -39,7 +39,7 @@ void list_pack_low(const list_order *order, list_chosen chosen, const mns_field 
                    float *out)
 {
     size_t stride = plan->ball_floats;
-#pragma omp parallel for if (chosen.count > ORDER_ALONE)
+#pragma omp parallel for if (order->in_view > ORDER_ALONE)
     for (size_t i = 0; i < chosen.count; i++) {
         const list_ball *ball = ball_at(order, chosen, i);
         float *to = out + i * stride;
@@ -73,7 +73,7 @@ void list_pack_colors(const list_order *order, list_chosen chosen, const mns_fie
                       const mns_plan *plan, void *out)
 {
     ball_colors colors = ball_colors_of(field, plan);
-#pragma omp parallel for if (chosen.count > ORDER_ALONE)
+#pragma omp parallel for if (order->in_view > ORDER_ALONE)
     for (size_t i = 0; i < chosen.count; i++)
         ((uint32_t *)out)[i] = ball_colors_word(&colors, ball_at(order, chosen, i)->index);
 }

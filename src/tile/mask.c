@@ -31,19 +31,30 @@ static void hide_row(tile_bins *bins, int row, int x0, int x1)
     }
 }
 
+/* C's own, which heed what is not a number, are calls. */
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static float smaller(float a, float b)
+{
+    return a < b ? a : b;
+}
+
 void mask_hide(tile_bins *bins, const tile_band *band, const tile_core *core)
 {
     int shift = mask_shift(bins), size = 1 << shift;
     float x = core->centre[0] - (float)bins->region.x, y = core->centre[1] - (float)bins->region.y;
-    int first = (int)fmaxf(ceilf(y - core->reach), (float)(band->first << bins->shift)) >> shift;
-    int last = (int)fminf(floorf(y + core->reach), (float)((band->past << bins->shift) - 1)) >> shift;
+    int first = (int)larger(ceilf(y - core->reach), (float)(band->first << bins->shift)) >> shift;
+    int last = (int)smaller(floorf(y + core->reach), (float)((band->past << bins->shift) - 1)) >> shift;
     for (int row = first; row <= last; row++) {
         float below = fabsf((float)(row << shift) - y), above = fabsf((float)((row << shift) + size - 1) - y);
-        float off = fmaxf(below, above), square = core->reach * core->reach - off * off;
+        float off = larger(below, above), square = core->reach * core->reach - off * off;
         if (!(square > 0)) continue;
         float half = sqrtf(square);
-        float low = fmaxf(ceilf(x - half), 0),
-              high = fminf(floorf(x + half), (float)((bins->across << bins->shift) - 1));
+        float low = larger(ceilf(x - half), 0),
+              high = smaller(floorf(x + half), (float)((bins->across << bins->shift) - 1));
         if (low > high) continue;
         int x0 = ((int)low + size - 1) >> shift, x1 = (((int)high + 1) >> shift) - 1;
         if (x0 <= x1) hide_row(bins, row, x0, x1);

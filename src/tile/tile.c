@@ -246,7 +246,7 @@ static void write_band(tile_bins *bins, const tile_band *band)
 }
 
 /* False: out of memory. */
-static bool write_lists(tile_bins *bins)
+static bool write_lists(tile_bins *bins, size_t balls)
 {
     size_t wanted = bins->count + 1;
     if (bins->place_capacity < wanted) {
@@ -257,7 +257,7 @@ static bool write_lists(tile_bins *bins)
         if (!bins->place) return false;
     }
     bins->place[0] = 0;
-#pragma omp parallel for schedule(dynamic, 1) if (bins->count > ORDER_ALONE)
+#pragma omp parallel for schedule(dynamic, 1) if (balls > BIN_ALONE)
     for (int i = 0; i < bins->band_count; i++) write_band(bins, &bins->band[i]);
     return true;
 }
@@ -314,7 +314,7 @@ mns_status tile_bins_make(tile_bins *bins, list_order *order, const mns_field *f
     if (status) return status;
     place_bands(bins);
     if (bins->count >= work.most) return MNS_OK;
-    if (!write_lists(bins)) return status_no_memory(error, "while binning the balls");
+    if (!write_lists(bins, order->in_view)) return status_no_memory(error, "while binning the balls");
     bins->fits = true;
     return MNS_OK;
 }

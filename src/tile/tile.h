@@ -21,7 +21,7 @@ typedef struct tile_head {
 enum { TILE_ENTRIES_MOST = 1 << 30 };
 
 /* Fewer balls are binned by one thread; see ORDER_ALONE. */
-enum { BIN_ALONE = 4096 };
+enum { BIN_ALONE = 16384 };
 
 /* How many of a frame's balls are to be sorted and binned before what they hide is dropped. */
 static inline size_t tile_near(size_t balls)
