@@ -68,6 +68,12 @@ mns_status action_size(viewer *v, const words *w, mns_error *error)
     return MNS_OK;
 }
 
+mns_status action_whole(viewer *v, const words *w, mns_error *error)
+{
+    (void)w;
+    return drawing_finish(v, error);
+}
+
 mns_status action_save(viewer *v, const words *w, mns_error *error)
 {
     return save_as(v, *w->text ? w->text : "meniscus.png", error);

@@ -45,6 +45,7 @@ static const action_row ROWS[] = {
     {"speed", "F", 1, action_speed, "plays F times as fast"},
     {"loop", "", 0, action_loop, "begins again at the end, or no longer"},
     {"size", "W H", 2, action_size, "the window's size"},
+    {"whole", "", 0, action_whole, "draws the whole picture, however long it takes"},
     {"save", "FILE", -2, action_save, "the picture, .png or .exr, or the scene, .json"},
     {"grab", "FILE", -1, action_grab, "the window as it is, .png"},
     {"copy", "", 0, action_copy, "copies the command line that renders this view"},

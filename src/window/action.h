@@ -16,7 +16,8 @@ act action_orbit, action_turn, action_pan, action_zoom, action_fly, action_fit, 
     action_side_of, action_fov, action_widen, action_set, action_unset, action_next, action_open_input,
     action_compare, action_other, action_divider, action_scale, action_check_it, action_hover_on, action_play,
     action_pause_it, action_step, action_frame, action_speed, action_loop, action_size, action_save,
-    action_grab, action_copy, action_reload, action_panel_toggle, action_help, action_quit, action_key,
-    action_drag, action_move, action_scroll, action_centre, action_rest, action_sleep_ms, action_tell;
+    action_whole, action_grab, action_copy, action_reload, action_panel_toggle, action_help, action_quit,
+    action_key, action_drag, action_move, action_scroll, action_centre, action_rest, action_sleep_ms,
+    action_tell;
 
 #endif

@@ -7,6 +7,9 @@
 
 /* How long a camera rests before the picture is drawn whole. */
 static const double REST_MS = 150;
+/* What would take longer than this when whole is drawn so only when it is asked for: nothing else happens
+ * meanwhile. */
+static const double LONG_MS = 15000;
 
 mns_status drawing_begin(viewer *v, mns_error *error)
 {
@@ -53,6 +56,7 @@ mns_view drawing_view(const viewer *v)
 void drawing_change(viewer *v, bool moves)
 {
     v->stage = STAGE_CHANGED;
+    v->is_coarse = v->asked_twice = false;
     v->difference.is_known = false;
     v->hover.is_known = false;
     check_forget(&v->check);
@@ -144,15 +148,39 @@ static mns_status draw_moving(viewer *v, mns_error *error)
     return status;
 }
 
+/* What a coarse picture says of the whole one, milliseconds. */
+static double whole_ms(const viewer *v)
+{
+    const mns_stats *s = mns_frame_stats(v->side[0].frame);
+    double part = (double)s->width * s->height / ((double)v->width * v->height);
+    return part < 1 ? (drawn_ms(v) - v->show_ms) / part : 0;
+}
+
+/* The first picture by other settings may have waited for a compiler, so that what it says is asked once
+ * more. */
+static mns_status draw_whole(viewer *v, mns_error *error)
+{
+    double ms = v->patient || !v->side[0].is_drawn ? 0 : whole_ms(v);
+    if (ms <= LONG_MS) return draw_sample(v, 0, error);
+    if (!v->asked_twice) {
+        v->asked_twice = true;
+        return draw_moving(v, error);
+    }
+    v->stage = STAGE_DONE;
+    v->is_coarse = true;
+    viewer_tell(v, "the whole picture would take some %.0f s: Return draws it", ms / 1000);
+    return MNS_OK;
+}
+
 static mns_status step(viewer *v, bool moving, mns_error *error)
 {
     switch (v->stage) {
     case STAGE_DONE:
         return MNS_OK;
-    case STAGE_CHANGED:
-        return moving ? draw_moving(v, error) : draw_sample(v, 0, error);
+    case STAGE_CHANGED: /* by other settings: what they cost is not known yet */
+        return moving || (v->on_trial && !v->patient) ? draw_moving(v, error) : draw_sample(v, 0, error);
     case STAGE_COARSE:
-        return moving ? MNS_OK : draw_sample(v, 0, error);
+        return moving ? MNS_OK : draw_whole(v, error);
     case STAGE_SUMMED:
         return moving ? MNS_OK : draw_sample(v, v->side[0].sum, error);
     }
@@ -173,7 +201,11 @@ mns_status drawing_step(viewer *v, double *again_ms, mns_error *error)
 mns_status drawing_finish(viewer *v, mns_error *error)
 {
     mns_status status = MNS_OK;
+    if (v->is_coarse) v->stage = STAGE_COARSE;
+    v->is_coarse = false;
+    v->patient = true;
     while (v->stage != STAGE_DONE && !status) status = step(v, false, error);
+    v->patient = false;
     return status;
 }
 

@@ -40,6 +40,7 @@ static const key_row KEYS[] = {
     {GLFW_KEY_L, 0, "L", "loop", "begin again at the end, or no longer"},
     {GLFW_KEY_9, 0, "9", "speed 0.5", "half as fast"},
     {GLFW_KEY_0, 0, "0", "speed 2", "twice as fast"},
+    {GLFW_KEY_ENTER, 0, "Return", "whole", "draw a picture whole that takes long"},
     {GLFW_KEY_S, GLFW_MOD_CONTROL, "ctrl+S", "save", "save the picture as meniscus.png"},
     {GLFW_KEY_E, GLFW_MOD_CONTROL, "ctrl+E", "save meniscus.exr", "save it as meniscus.exr"},
     {GLFW_KEY_J, GLFW_MOD_CONTROL, "ctrl+J", "save meniscus.json", "save the scene as meniscus.json"},

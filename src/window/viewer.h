@@ -91,6 +91,9 @@ typedef struct viewer {
     double moving_ms[2]; /* what the last two pictures took that moved */
     double moved_ms;     /* when it last moved */
     bool held;           /* a hand holds the camera */
+    bool patient;        /* however long it takes, it is drawn whole */
+    bool is_coarse;      /* it is left as it was drawn while it moved */
+    bool asked_twice;    /* how long it would take */
     bool stale;          /* the window shows less than is drawn */
     int polish;          /* how often more to show the panel before it rests */
     size_t draws;        /* pictures drawn so far, and put on the window */
