@@ -40,6 +40,10 @@ static bool close_leaf(const work_set *set, work_node *node, work_bench *bench, 
     return true;
 }
 
+/* In a crowd it is asked first whether the box is deep inside, for that costs less than the planes; else only
+ * of what would be cut. */
+enum { CROWDED = 64 };
+
 /* Cuts the node; its children's references take the place of its own in the stack, the second's below the
  * first's, so that the first can be built and forgotten. 1: two children; 0: one, which *node has become;
  * -1: a leaf; -2: no surface; -3: out of memory. */
@@ -48,13 +52,16 @@ static int cut_node(const work_set *set, work_node *node, work_bench *bench, wor
                     work_tally *tally)
 {
     work_cut cut;
-    bool bounded;
+    bool bounded = false;
     size_t step = work_look(set, node, bench->list + node->first, &bench->block);
-    if (step == 1 && !set->options.no_deep && work_deep(set, node, &bench->block)) {
+    const bool ask = step == 1 && !set->options.no_deep, crowded = node->count > CROWDED;
+    bool deep = ask && crowded && work_deep(set, node, &bench->block);
+    bool wanted = !deep && work_choose(set, node, &bench->block, step, &cut, &bounded);
+    if (ask && !crowded && (wanted || bounded)) deep = work_deep(set, node, &bench->block);
+    if (deep) {
         tally->deep++;
         return CUT_LEAF;
     }
-    bool wanted = work_choose(set, node, &bench->block, step, &cut, &bounded);
     tally->bounded += bounded;
     if (!wanted) return CUT_LEAF;
     size_t top = node->first + node->count;

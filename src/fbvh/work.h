@@ -47,7 +47,6 @@ typedef struct work_set {
     double sum; /* S+ of all */
     double iso;
     int middle_levels;
-    bool overlaps;          /* so much that there may be an inside away from the surface */
     float span[WORK_SPANS]; /* of work_span */
 } work_set;
 
