@@ -85,7 +85,7 @@ static mns_status try_case(tally *t, const char *scene, const mns_field *field, 
     cost costs[METHODS];
     double used[METHODS], clock[METHODS];
     mns_plan *plan;
-    mns_options options = {.moved = moved, .draws = moved ? 1 : 1000};
+    mns_options options = {.moved = moved};
     mns_status status =
         mns_plan_create(field, &view, NULL, &options, mns_renderer_limits(t->renderer), &plan, error);
     if (status) return status;

@@ -317,7 +317,6 @@ typedef struct mns_options {
      * as drawn at once. */
     int sample_first, sample_count;
     bool moved;       /* every position changed since the last draw: reuse nothing */
-    int draws;        /* for AUTO: how often this field will be drawn as it is; 0: once */
     bool measure;     /* fill the phases' times (each closed by glFinish) and the lengths of the lists */
     const char *tree; /* how fbvh and bvh are built: "no-fit,cost-n,..." (README); borrowed for the call */
     int secant_steps; /* most steps of the solver secant; 0: 16 */

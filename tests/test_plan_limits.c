@@ -123,7 +123,6 @@ static void errors_are_one_line(void **state)
     } cases[] = {
         {{"method", .options = {.method = (mns_method)7}}, MNS_ERROR_USAGE, "method 7"},
         {{"solver", .options = {.solver = (mns_solver)4}}, MNS_ERROR_USAGE, "solver 4"},
-        {{"draws", .options = {.draws = -1}}, MNS_ERROR_USAGE, "-1 draws"},
         {{"gather", .options = {.gather = (mns_gather)2}}, MNS_ERROR_USAGE, "gather 2"},
         {{"samples", .options = {.samples = 65}}, MNS_ERROR_USAGE, "65 samples"},
         {{"samples", .options = {.samples = -1}}, MNS_ERROR_USAGE, "-1 samples"},

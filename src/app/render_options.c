@@ -82,7 +82,6 @@ static mns_status option_stats(app_options *o, const char *name, const char *tex
 static mns_status option_repeat(app_options *o, const char *name, const char *text, mns_error *error)
 {
     mns_status status = parse_count(name, text, 1000000, &o->repeat, error);
-    o->draw.draws = o->repeat;
     return status;
 }
 

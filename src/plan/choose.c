@@ -21,27 +21,10 @@ plan_choice plan_required(const mns_options *options)
     return choice(MNS_METHOD_AUTO, NULL);
 }
 
-/* A tree takes as long to build as some frames to draw; then a ray passes by what it does not meet, where a
- * tile's list has every ball in front of its cores. That tells where many balls lie over one another. */
-static bool is_still_and_thick(const mns_options *options, const mns_field *field)
-{
-    const int draws_least = 20;
-    const size_t count_least = 300000;
-    const double overlap_least = 8; /* spheres around a point of the box of the centres, on the mean */
-    if (options->moved || options->draws < draws_least || field->p.count < count_least) return false;
-    if (options->solver != MNS_SOLVER_EXACT) return false;
-    double box = 1, radius = field->radius_median,
-           ball = 4.0 / 3 * 3.14159265358979 * radius * radius * radius;
-    for (int k = 0; k < 3; k++) box *= field->hi[k] - field->lo[k];
-    return (double)field->p.count * ball >= overlap_least * box;
-}
-
 plan_choice plan_choose(const mns_options *options, const mns_limits *limits, const mns_field *field)
 {
     plan_choice required = plan_required(options);
     if (required.method != MNS_METHOD_AUTO) return required;
-    if (limits->is_software && is_still_and_thick(options, field))
-        return choice(MNS_METHOD_FBVH, "auto: many draws of a thick field that stands still repay its tree");
     if (limits->is_software)
         return choice(MNS_METHOD_TILE, "auto: a software renderer casts sooner than it rasterises");
     /* Lists may keep each ball twice (plan_check_limits). */

@@ -42,8 +42,6 @@ static mns_status check_options(const mns_options *options, mns_error *error)
         return status_fail(error, MNS_ERROR_USAGE,
                            "options: %d samples from %d on; of %d there are no such ones",
                            options->sample_count, options->sample_first, samples);
-    if (options->draws < 0)
-        return status_fail(error, MNS_ERROR_USAGE, "options: %d draws; take 0 or more", options->draws);
     if (options->slots < 0 || options->slots > 1024)
         return status_fail(error, MNS_ERROR_USAGE, "options: %d slots; take 1 to 1024", options->slots);
     if (options->root_steps < 0 || options->root_steps > 4096)
