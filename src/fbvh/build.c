@@ -142,7 +142,7 @@ mns_status fbvh_build(fbvh_builder *b, const mns_field *field, const fbvh_option
     const int next = next_slot(b);
     builder_slot *slot = &b->slot[next];
     work_set set;
-    mns_status status = fbvh_options_resolve(options, &set.options, error);
+    mns_status status = fbvh_options_resolve(options, field->p.count, &set.options, error);
     if (status) return status;
     memset(&slot->tree, 0, sizeof slot->tree);
     slot->tree.kind = set.options.kind;

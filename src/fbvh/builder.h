@@ -42,7 +42,7 @@ void builder_root(const work_set *set, uint32_t *list, work_node *root);
 bool builder_work(fbvh_builder *builder, const work_set *set, const uint32_t *list);
 bool builder_assemble(fbvh_builder *builder, const work_set *set, builder_slot *slot);
 
-/* Options with every default put in. Errors: USAGE. */
-mns_status fbvh_options_resolve(const fbvh_options *options, fbvh_options *o, mns_error *error);
+/* Options with every default for so many balls put in. Errors: USAGE. */
+mns_status fbvh_options_resolve(const fbvh_options *options, size_t balls, fbvh_options *o, mns_error *error);
 
 #endif

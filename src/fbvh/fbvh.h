@@ -39,15 +39,16 @@ typedef enum fbvh_cost { FBVH_COST_SQUARE = 0, FBVH_COST_LINEAR } fbvh_cost;
 typedef struct fbvh_options {
     fbvh_kind kind;
     fbvh_cost cost;
-    bool no_fit;           /* a child's box is its half of the parent's; FBVH_FITTED only */
-    bool no_tight;         /* boxes of whole effective spheres (Table 5, "tighter bbox" off) */
-    bool no_discard;       /* keep balls that cannot contribute (Table 5, "discarding" off) */
-    bool no_deep;          /* split where the whole box seems to be deep inside, too */
-    unsigned discard_most; /* no discarding in leaves of more balls; 0: 12 */
-    unsigned leaf_least;   /* a node of so few balls is not split; 0: 4 */
-    double traversal_cost; /* of one inner node, in units of the leaf's cost; 0: 200, or 6 of linear cost */
-    int middle_levels;     /* so many first levels are cut in the middle of the longest axis; 0: chosen by
-                              the density of the field; -1: none */
+    bool no_fit;              /* a child's box is its half of the parent's; FBVH_FITTED only */
+    bool no_tight;            /* boxes of whole effective spheres (Table 5, "tighter bbox" off) */
+    bool no_discard;          /* keep balls that cannot contribute (Table 5, "discarding" off) */
+    bool no_deep;             /* split where the whole box seems to be deep inside, too */
+    unsigned discard_most;    /* no discarding in leaves of more balls; 0: 12 */
+    unsigned leaf_least;      /* a node of so few balls is not split; 0: 4 */
+    double traversal_cost;    /* of one inner node, in units of the leaf's cost; 0: 60 of fewer than 32,768
+                                 balls, else 200; 6 of linear cost */
+    int middle_levels;        /* so many first levels are cut in the middle of the longest axis; 0: chosen by
+                                 the density of the field; -1: none */
     double references_a_ball; /* bound on all references, over the count of balls; 0: 16; at least 1 */
     size_t max_block_bytes;   /* of any one of the packed arrays; 0: 128 MiB */
 } fbvh_options;

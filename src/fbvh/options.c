@@ -5,13 +5,22 @@
 #include <string.h>
 
 #define BLOCK_BYTES ((size_t)128 << 20)
+#define FEW_BALLS   32768
 
-mns_status fbvh_options_resolve(const fbvh_options *options, fbvh_options *o, mns_error *error)
+/* What an inner node costs, by the cost of a leaf n² or n. Smaller leaves make quicker rays, and builds that
+ * take the longer the more balls there are: a few balls' build is nothing beside a frame. */
+static double usual_traversal_cost(fbvh_cost cost, size_t balls)
+{
+    if (cost != FBVH_COST_SQUARE) return 6;
+    return balls < FEW_BALLS ? 60 : 200;
+}
+
+mns_status fbvh_options_resolve(const fbvh_options *options, size_t balls, fbvh_options *o, mns_error *error)
 {
     *o = options ? *options : (fbvh_options){0};
     if (!o->discard_most) o->discard_most = 12;
     if (!o->leaf_least) o->leaf_least = 4;
-    if (o->traversal_cost == 0) o->traversal_cost = o->cost == FBVH_COST_SQUARE ? 200 : 6;
+    if (o->traversal_cost == 0) o->traversal_cost = usual_traversal_cost(o->cost, balls);
     if (o->references_a_ball == 0) o->references_a_ball = 16;
     if (!o->max_block_bytes) o->max_block_bytes = BLOCK_BYTES;
     if (o->kind > FBVH_OVERLAPPING || o->cost > FBVH_COST_LINEAR)
