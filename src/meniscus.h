@@ -34,8 +34,7 @@ extern "C" {
 #define MNS_VERSION_MINOR 1
 #define MNS_VERSION_PATCH 0
 
-/* ---- Errors
- * ------------------------------------------------------------------------------------------------- */
+/* ---- Errors ---- */
 
 typedef enum mns_status {
     MNS_OK = 0,
@@ -56,8 +55,7 @@ typedef struct mns_error {
  */
 MNS_API const char *mns_version(void);
 
-/* ---- The field
- * ---------------------------------------------------------------------------------------------- */
+/* ---- The field ---- */
 
 /* Kernels k(v), v = |x - p| / R in [0, 1], k(0) = 1, zero beyond 1. Formulas: glsl/density.glsl. */
 typedef enum mns_kernel {
@@ -140,8 +138,7 @@ MNS_API bool mns_field_get_column(const mns_field *field, size_t index, mns_colu
 /* What ball `ball` < count has in column `index`; NAN where there is no such column or ball. */
 MNS_API double mns_field_value(const mns_field *field, size_t index, size_t ball);
 
-/* ---- Input: particle files and generators
- * ------------------------------------------------------------------ */
+/* ---- Input: particle files and generators ---- */
 
 typedef struct mns_input_options { /* zero: what the file says, or the default */
     mns_kernel kernel;
@@ -163,8 +160,7 @@ MNS_API size_t mns_input_frames(const mns_input *input);
 /* Reads frame `frame` (from 0). Errors: USAGE (no such frame), IO, INPUT, MEMORY. */
 MNS_API mns_status mns_input_read(mns_input *input, size_t frame, mns_field **field, mns_error *error);
 
-/* ---- View, look, options
- * ------------------------------------------------------------------------------------ */
+/* ---- View, look, options ---- */
 
 enum { MNS_VIEW_EYE = 1, MNS_VIEW_LOOK_AT = 2 }; /* bits of mns_view.set */
 
@@ -334,8 +330,7 @@ typedef struct mns_options {
  * vector; the ray starts at the view's eye. Thread safe. */
 MNS_API void mns_view_ray(const mns_view *resolved, double x, double y, double direction[3]);
 
-/* ---- The plan
- * ----------------------------------------------------------------------------------------------- */
+/* ---- The plan ---- */
 
 typedef struct mns_limits {   /* of a driver; zeros: the minima of OpenGL 4.3 */
     size_t max_storage_block; /* bytes, GL_MAX_SHADER_STORAGE_BLOCK_SIZE */
@@ -373,8 +368,7 @@ MNS_API const char *const *mns_plan_warnings(const mns_plan *plan, size_t *count
 /* The whole plan as text of several lines, as --explain prints it. Lives as long as the plan. */
 MNS_API const char *mns_plan_text(const mns_plan *plan);
 
-/* ---- GL contexts without a window
- * ---------------------------------------------------------------------------- */
+/* ---- GL contexts without a window ---- */
 
 typedef enum mns_backend {
     MNS_BACKEND_AUTO = 0,
@@ -405,8 +399,7 @@ MNS_API const char *mns_context_name(const mns_context *context);
  * Leaves no context current. */
 MNS_API char *mns_backend_describe(mns_backend backend);
 
-/* ---- Drawing
- * ------------------------------------------------------------------------------------------------ */
+/* ---- Drawing ---- */
 
 typedef struct mns_renderer mns_renderer;
 typedef struct mns_frame mns_frame;
@@ -557,8 +550,7 @@ typedef enum mns_plane {                      /* GL textures of a frame; a host 
 /* The GL name of a plane's texture; row 0 is the bottom. 0 before the first draw. */
 MNS_API unsigned mns_frame_texture(const mns_frame *frame, mns_plane plane);
 
-/* ---- Images
- * ------------------------------------------------------------------------------------------------- */
+/* ---- Images ---- */
 
 /* Planes read back. Row 0 is the top, pixels row by row; every array is width * height (x 4 for rgba, x 3 for
  * normal). */
@@ -596,8 +588,7 @@ MNS_API mns_status mns_image_write(const mns_image *image, const char *path, mns
 /* Reads back an .exr that mns_image_write wrote. Errors: IO, INPUT, MEMORY. */
 MNS_API mns_status mns_image_read(const char *path, mns_image **image, mns_error *error);
 
-/* ---- The truth: the certified tracer on the CPU, in doubles
- * ---------------------------------------------------------- */
+/* ---- The truth: the certified tracer on the CPU, in doubles ---- */
 
 typedef struct mns_reference mns_reference;
 
@@ -626,8 +617,7 @@ MNS_API double mns_reference_value(const mns_reference *reference, const double 
 /* The effective radius of ball `index` < count. Thread safe. */
 MNS_API double mns_field_radius(const mns_field *field, size_t index);
 
-/* ---- Scene files
- * --------------------------------------------------------------------------------------------- */
+/* ---- Scene files ---- */
 
 typedef struct mns_scene {
     const char *const *inputs; /* names for mns_input_open, relative ones resolved beside the scene file */

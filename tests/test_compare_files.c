@@ -33,8 +33,7 @@ static int teardown(void **state)
     return 0;
 }
 
-/* ---- Pictures
- * ------------------------------------------------------------------------------------------------------ */
+/* ---- Pictures ---- */
 
 static const page_picture *find(const picture_list *list, const char *kind)
 {
@@ -96,8 +95,7 @@ static void pictures_show_what_differs(void **state)
     planes_free(&p);
 }
 
-/* ---- The folder
- * ---------------------------------------------------------------------------------------------------- */
+/* ---- The folder ---- */
 
 static void fill(const folder_output *output, const char *name, const char *text)
 {

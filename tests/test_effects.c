@@ -58,8 +58,7 @@ static vec3 point_of(const reference_answer *a)
     return vec3_load(a->point);
 }
 
-/* ---- Shading
- * ------------------------------------------------------------------------------------------------ */
+/* ---- Shading ---- */
 
 static void lights_add_up_as_written(void **state)
 {
@@ -100,8 +99,7 @@ static void lights_add_up_as_written(void **state)
     mns_field_destroy(field);
 }
 
-/* ---- Shadows, occlusion
- * ------------------------------------------------------------------------------------- */
+/* ---- Shadows, occlusion ---- */
 
 static void a_balls_shadow_is_its_outline(void **state)
 {
@@ -190,8 +188,7 @@ static void occlusion_is_the_form_factor(void **state)
     }
 }
 
-/* ---- Mirrors, glass
- * ----------------------------------------------------------------------------------------- */
+/* ---- Mirrors, glass ---- */
 
 static void mirrored_rays_go_where_they_must(void **state)
 {
@@ -309,8 +306,7 @@ static void fresnels_share_at_the_ends(void **state)
     fixture_expect_close(optics_fresnel(1.5, cos(brewster)), 0.5 * pow(sin(brewster - out), 2), 1e-15);
 }
 
-/* ---- Depth, seeds
- * ------------------------------------------------------------------------------------------- */
+/* ---- Depth, seeds ---- */
 
 /* Between two mirrors that face one another a ray goes on until its levels end. */
 static void levels_end_where_they_are_told(void **state)

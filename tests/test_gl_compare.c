@@ -61,9 +61,7 @@ static double t_at(const json_t *run, const char *key)
     return json_real_value(json_object_get(json_object_get(json_object_get(run, "errors"), "t"), key));
 }
 
-/* ---- verify
- * ---------------------------------------------------------------------------------------------------------
- */
+/* ---- verify ---- */
 
 static void verify_passes_what_is_exact(void **state)
 {
@@ -116,8 +114,7 @@ static void verify_agrees_that_nothing_is_seen(void **state)
     assert_null(strstr(c->out, "worst"));
 }
 
-/* ---- compare
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- compare ---- */
 
 static void compare_writes_every_method_of_the_build(void **state)
 {
@@ -193,8 +190,7 @@ static void compare_of_the_reference_finds_nothing(void **state)
     json_decref(root);
 }
 
-/* ---- Two saved images
- * ---------------------------------------------------------------------------------------------- */
+/* ---- Two saved images ---- */
 
 static void saved_images_are_told_apart_by_their_tolerances(void **state)
 {

@@ -17,8 +17,7 @@ enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT };
 static const mns_options traced = {.method = MNS_METHOD_REFERENCE};
 static const mns_view small = {.width = WIDTH, .height = HEIGHT};
 
-/* ---- The same numbers
- * --------------------------------------------------------------------------------------- */
+/* ---- The same numbers ---- */
 
 enum { CASES = 4096, RESULTS = 16 };
 
@@ -133,8 +132,7 @@ static void texts_give_glsl_and_c_the_same(void **state)
     draw_fixture_check(d);
 }
 
-/* ---- Nothing for nothing
- * ------------------------------------------------------------------------------------ */
+/* ---- Nothing for nothing ---- */
 
 static void what_does_nothing_changes_no_bit(void **state)
 {
@@ -210,8 +208,7 @@ static void the_truths_shading_is_the_shade_passs(void **state)
     }
 }
 
-/* ---- Terms
- * -------------------------------------------------------------------------------------------------- */
+/* ---- Terms ---- */
 
 static const mns_look everything = {.light = MNS_LIGHT_DIRECTIONAL,
                                     .effects = {.shadows = true,

@@ -40,8 +40,7 @@ static int teardown(void **state)
     return draw_fixture_teardown(&draw);
 }
 
-/* ---- What a failure leaves
- * ------------------------------------------------------------------------------------------------ */
+/* ---- What a failure leaves ---- */
 
 /* "BUILD/images/NAME/BACKEND-METHOD" and an ending. */
 static void report_path(char path[IMAGE_PATH], const char *name, const char *method, const char *ending)
@@ -83,8 +82,7 @@ static void report(const image_row *row, const char *method, const mns_image *im
                 row->name, method, why, folder, row->name);
 }
 
-/* ---- Drawn by each method
- * ------------------------------------------------------------------------------------------------- */
+/* ---- Drawn by each method ---- */
 
 static mns_method method_by_name(const char *name)
 {
@@ -189,8 +187,7 @@ static void the_reference_still_draws_the_truth(void **state)
     if (failed) fail_msg("%zu truths are not what the reference draws", failed);
 }
 
-/* ---- What is wrong is noticed
- * --------------------------------------------------------------------------------------------- */
+/* ---- What is wrong is noticed ---- */
 
 /* Draws what was made wrong in `s`, and expects to be told. */
 static void expect_noticed(fixture *f, const image_row *row, const image_scene *s, const char *what)

@@ -18,8 +18,7 @@ enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT };
 static const mns_options truth = {.method = MNS_METHOD_REFERENCE};
 static const mns_view small = {.width = WIDTH, .height = HEIGHT};
 
-/* ---- Looks
- * -------------------------------------------------------------------------------------------------- */
+/* ---- Looks ---- */
 
 static const mns_light sun = {.kind = MNS_LIGHT_DIRECTIONAL, .direction = {1, 2, 1.5}};
 static const mns_light lamps[] = {
@@ -51,8 +50,7 @@ static const look_case
                                .transmission = 0.75,
                                .absorption = {1, 2, 3}}}};
 
-/* ---- What is compared
- * --------------------------------------------------------------------------------------- */
+/* ---- What is compared ---- */
 
 static bool differ(const float *got, const float *want, int i, double allowed)
 {
@@ -142,8 +140,7 @@ static void every_kind_of_kernel_leaves_the_surface(void **state)
     }
 }
 
-/* ---- Scales
- * --------------------------------------------------------------------------------------------------- */
+/* ---- Scales ---- */
 
 enum { BALLS = 150 };
 
@@ -208,8 +205,7 @@ static void an_eye_inside_sees_light_too(void **state)
     mns_field_destroy(field);
 }
 
-/* ---- Pictures
- * ------------------------------------------------------------------------------------------------- */
+/* ---- Pictures ---- */
 
 static void colours_cel_and_samples_are_the_truths(void **state)
 {

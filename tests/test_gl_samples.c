@@ -91,8 +91,7 @@ static void a_field_may_go_once_its_tree_was_ended(void **state)
     mns_field_destroy(field);
 }
 
-/* ---- Shaders read again
- * --------------------------------------------------------------------------------------------- */
+/* ---- Shaders read again ---- */
 
 static void copy_shaders(const char *folder)
 {

@@ -32,8 +32,7 @@ static int teardown(void **state)
     return 0;
 }
 
-/* ---- What the scenes cover
- * ------------------------------------------------------------------------------------------------ */
+/* ---- What the scenes cover ---- */
 
 /* Whether `word` is one of the words of the line of `text` that begins so. */
 static bool has_word(const char *text, const char *line, const char *word)
@@ -148,9 +147,7 @@ static void the_scenes_cover_the_formats(void **state)
         if (!seen[k]) fail_msg("no scene reads %s of a name *%s", formats[k].format, formats[k].ending);
 }
 
-/* ---- The truths
- * ------------------------------------------------------------------------------------------------------------
- */
+/* ---- The truths ---- */
 
 static void the_truths_are_small_and_all_in_the_table(void **state)
 {
@@ -195,9 +192,7 @@ static void the_truths_are_the_references(void **state)
     }
 }
 
-/* ---- The tolerances
- * ------------------------------------------------------------------------------------------------------------
- */
+/* ---- The tolerances ---- */
 
 /* Pixels that the truth is sure of: the first hit and the first miss. False where there is none. */
 static bool find_pixel(const mns_image *image, bool hit, size_t *pixel)

@@ -106,8 +106,7 @@ static void agreesWithTheOracle(void **state)
     if (10000 * all.undecided > all.rays) fail_msg("%zu of %zu undecided", all.undecided, all.rays);
 }
 
-/* ---- Rays that are hard by construction
- * ------------------------------------------------------------------------------------ */
+/* ---- Rays that are hard by construction ---- */
 
 /* 9/16 = (1 - 1/4)^2: with poly2 a lone unit ball's surface lies at 1/2 from its centre, in doubles too. */
 static const double NINE_16 = 0.5625;

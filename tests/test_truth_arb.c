@@ -143,8 +143,7 @@ static void aGradientIsThatOfTheValue(void **state)
     }
 }
 
-/* ---- The long double oracle on the same rays
- * ----------------------------------------------------------------------------- */
+/* ---- The long double oracle on the same rays ---- */
 
 static brute_hit brute_of(const rays_case *c)
 {

@@ -17,8 +17,7 @@
 
 #include <cmocka.h>
 
-/* ---- The camera
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- The camera ---- */
 
 static camera at(double x, double y, double z)
 {
@@ -139,8 +138,7 @@ static void field_of_view_keeps_the_size_at_the_target(void **state)
     assert_float_equal(c.fov, 170, 0);
 }
 
-/* ---- Pace and time
- * ---------------------------------------------------------------------------------------------------- */
+/* ---- Pace and time ---- */
 
 /* Frames that take `full` ms at the whole size, by their pixels. */
 static double settle(pace *p, double full, int frames)
@@ -218,8 +216,7 @@ static void what_comes_too_late_is_dropped_and_told(void **state)
     assert_int_equal(timeline_clamp(&t, 12), 9);
 }
 
-/* ---- Frames on a thread
- * ----------------------------------------------------------------------------------------------- */
+/* ---- Frames on a thread ---- */
 
 static sem_t woken;
 
@@ -261,8 +258,7 @@ static void frames_are_read_on_a_thread(void **state)
     sem_destroy(&woken);
 }
 
-/* ---- Scripts and words
- * ------------------------------------------------------------------------------------------------ */
+/* ---- Scripts and words ---- */
 
 static void a_script_gives_its_lines(void **state)
 {

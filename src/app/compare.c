@@ -12,8 +12,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* ---- Options
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- Options ---- */
 
 static mns_status option_runs(app_options *o, const char *name, const char *text, mns_error *error)
 {
@@ -123,8 +122,7 @@ static const option_table COMPARE_OPTIONS = {
     .count = sizeof ROWS / sizeof *ROWS,
 };
 
-/* ---- A scene
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- A scene ---- */
 
 typedef struct compare_job {
     const app_options *o;
@@ -219,8 +217,7 @@ static mns_status compare_input(const app_options *o, const char *command, mns_e
     return status;
 }
 
-/* ---- The command
- * --------------------------------------------------------------------------------------------------- */
+/* ---- The command ---- */
 
 static bool ends_in(const char *name, const char *ending)
 {

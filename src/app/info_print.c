@@ -3,8 +3,7 @@
 
 #include <stdio.h>
 
-/* ---- For people
- * ------------------------------------------------------------------------------------------------ */
+/* ---- For people ---- */
 
 /* Labels printed of a text column, at most. */
 #define LABELS_SHOWN 12
@@ -68,8 +67,7 @@ void info_print(const mns_field *field, size_t frame, size_t frames)
         puts("rows skipped: 0");
 }
 
-/* ---- For programs
- * ---------------------------------------------------------------------------------------------- */
+/* ---- For programs ---- */
 
 static json_t *vector(const double v[3])
 {

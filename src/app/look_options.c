@@ -6,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Material
- * ------------------------------------------------------------------------------------------------- */
+/* ---- Material ---- */
 
 static const char *shading_name(int i)
 {
@@ -109,8 +108,7 @@ mns_status option_shininess(app_options *o, const char *name, const char *text, 
     return parse_positive(name, text, &o->look.shininess, error);
 }
 
-/* ---- Lights
- * --------------------------------------------------------------------------------------------------- */
+/* ---- Lights ---- */
 
 /* What stands before each of up to two "@": where the light is, its strength, its colour. */
 static bool split_light(const char *text, char part[3][80])
@@ -184,8 +182,7 @@ mns_status option_light(app_options *o, const char *name, const char *text, mns_
     return MNS_OK;
 }
 
-/* ---- Effects
- * -------------------------------------------------------------------------------------------------- */
+/* ---- Effects ---- */
 
 mns_status option_look(app_options *o, const char *name, const char *text, mns_error *error)
 {

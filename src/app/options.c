@@ -223,8 +223,7 @@ const char *options_beside(const app_options *o, const char *const *known)
     return NULL;
 }
 
-/* ---- Rows that commands share
- * ---------------------------------------------------------------------------------- */
+/* ---- Rows that commands share ---- */
 
 static const char *kernel_name(int i)
 {

@@ -38,8 +38,7 @@ typedef struct render_frame {
     double load_ms, readback_ms, encode_ms;
 } render_frame;
 
-/* ---- Before anything is drawn
- * ---------------------------------------------------------------------------------- */
+/* ---- Before anything is drawn ---- */
 
 /* The options against one another, and the places of the outputs. */
 static mns_status check_outputs(render_job *job, mns_error *error)
@@ -164,8 +163,7 @@ static mns_status load(render_job *job, long index, mns_field **field, double *m
     return status;
 }
 
-/* ---- Drawing
- * --------------------------------------------------------------------------------------------------- */
+/* ---- Drawing ---- */
 
 static mns_status start_renderer(render_job *job, mns_error *error)
 {

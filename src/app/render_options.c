@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Frame and camera
- * ------------------------------------------------------------------------------------------ */
+/* ---- Frame and camera ---- */
 
 mns_status option_size(app_options *o, const char *name, const char *text, mns_error *error)
 {
@@ -41,8 +40,7 @@ mns_status option_fov(app_options *o, const char *name, const char *text, mns_er
     return status;
 }
 
-/* ---- Output and measurement
- * ------------------------------------------------------------------------------------ */
+/* ---- Output and measurement ---- */
 
 static mns_status option_samples(app_options *o, const char *name, const char *text, mns_error *error)
 {
@@ -99,8 +97,7 @@ static mns_status option_explain(app_options *o, const char *name, const char *t
     return MNS_OK;
 }
 
-/* ---- Tests and diagnosis
- * --------------------------------------------------------------------------------------- */
+/* ---- Tests and diagnosis ---- */
 
 static mns_status option_pool(app_options *o, const char *name, const char *text, mns_error *error)
 {
@@ -128,8 +125,7 @@ static mns_status option_shuffle(app_options *o, const char *name, const char *t
     return status;
 }
 
-/* ---- The table
- * ------------------------------------------------------------------------------------------------- */
+/* ---- The table ---- */
 
 #define HEADING(text)                                                                                        \
     {                                                                                                        \

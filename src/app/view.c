@@ -20,8 +20,7 @@ typedef struct view_job {
     view_state now, kept;
 } view_job;
 
-/* ---- The words and what they mean
- * ------------------------------------------------------------------------------------ */
+/* ---- The words and what they mean ---- */
 
 static void state_free(view_state *state)
 {
@@ -82,8 +81,7 @@ static mns_status become(view_job *job, view_words words, bool whole, mns_error 
     return MNS_OK;
 }
 
-/* ---- The window's host
- * ----------------------------------------------------------------------------------------------- */
+/* ---- The window's host ---- */
 
 static const window_settings *host_settings(void *context)
 {
@@ -176,8 +174,7 @@ static void host_tell(void *context, const char *line)
     fflush(stdout);
 }
 
-/* ---- The command
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- The command ---- */
 
 /* Options that argp cannot hold: what scripts may say. */
 static void print_actions(void)

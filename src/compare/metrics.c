@@ -19,8 +19,7 @@ const char *metrics_kind_name(metrics_kind kind)
     return names[kind];
 }
 
-/* ---- Spreads
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- Spreads ---- */
 
 static int by_value(const void *a, const void *b)
 {
@@ -57,8 +56,7 @@ static metrics_spread spread_of_numbers(double *value, size_t count)
     return metrics_spread_of(value, kept);
 }
 
-/* ---- One pixel
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- One pixel ---- */
 
 static bool is_decided(const truth_planes *truth, const mns_image *image, size_t i)
 {
@@ -110,8 +108,7 @@ static double normal_angle(const double a[3], const float b[3])
     return atan2(across, along) * 180 / PI;
 }
 
-/* ---- Whole images
- * -------------------------------------------------------------------------------------------------- */
+/* ---- Whole images ---- */
 
 /* What is gathered a pixel, NAN where it has no such figure. */
 typedef struct columns {
@@ -201,8 +198,7 @@ static double psnr(const truth_planes *truth, const mns_image *image, size_t pix
     return mean > 0 ? fmin(-10 * log10(mean), METRICS_PSNR_MOST) : METRICS_PSNR_MOST;
 }
 
-/* ---- The worst pixels
- * ---------------------------------------------------------------------------------------------- */
+/* ---- The worst pixels ---- */
 
 /* The worst of one kind so far, the worst first. */
 typedef struct worst_list {

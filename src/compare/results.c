@@ -10,17 +10,14 @@
 #include <string.h>
 #include <time.h>
 
-/* ---- Values
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Values ---- */
 
 static json_t *point(const double v[3])
 {
     return json_pack("[f, f, f]", v[0], v[1], v[2]);
 }
 
-/* ---- A run
- * ---------------------------------------------------------------------------------------------------------
- */
+/* ---- A run ---- */
 
 static json_t *spread(const metrics_spread *s)
 {
@@ -98,8 +95,7 @@ json_t *results_run(const run_result *run)
                      failed ? json_array() : worst(&run->errors));
 }
 
-/* ---- What it is of
- * -------------------------------------------------------------------------------------------------- */
+/* ---- What it is of ---- */
 
 static json_t *input(const results_about *about)
 {

@@ -8,8 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- What there is to run
- * ------------------------------------------------------------------------------------------ */
+/* ---- What there is to run ---- */
 
 typedef struct known_method {
     const char *method, *solver;
@@ -120,8 +119,7 @@ void run_known(char text[RUN_KNOWN_SIZE])
     for (size_t i = 0; i < KEY_COUNT; i++) append(text, i ? ", " : "; keys: ", KEYS[i].key, "");
 }
 
-/* ---- Reading --runs
- * ------------------------------------------------------------------------------------------------ */
+/* ---- Reading --runs ---- */
 
 /* Splits off what stands before the first `separator`; NULL where nothing is left. */
 static char *next_word(char **text, char separator)

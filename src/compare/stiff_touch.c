@@ -5,8 +5,7 @@
 
 #include <math.h>
 
-/* ---- One structure a cell of 8 by 8 pixels, aimed at the ray of the cell's middle pixel
- * ------------------------------------------------------------------------------------------------------ */
+/* ---- One structure a cell of 8 by 8 pixels, aimed at the ray of the cell's middle pixel ---- */
 
 enum { CELL = 8 };
 
@@ -108,8 +107,7 @@ void stiff_rings(stiff_scene *scene, const double *number)
     put_cells(scene, put_ring);
 }
 
-/* ---- Films and gaps
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- Films and gaps ---- */
 
 /* A square layer of balls of radius 1 at height y, n by n, `spacing` apart. */
 static void put_layer(stiff_scene *scene, double y, int n, double spacing, double strength)

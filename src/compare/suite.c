@@ -15,8 +15,7 @@ const char *suite_verdict_name(suite_verdict verdict)
     return names[verdict];
 }
 
-/* ---- Verdicts
- * ------------------------------------------------------------------------------------------------------ */
+/* ---- Verdicts ---- */
 
 static void add_note(char note[200], size_t count, const char *what)
 {
@@ -45,8 +44,7 @@ void suite_judge(const stiff_case *which, const run_result *run, suite_line *lin
     if (open) add_note(line->note, m->undecided, "undecided");
 }
 
-/* ---- As JSON
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- As JSON ---- */
 
 static json_t *line_json(const suite_line *line)
 {
@@ -86,8 +84,7 @@ static json_t *case_json(const stiff_case *which)
                      (which->flags & STIFF_TOUCHES) != 0, "runs");
 }
 
-/* ---- Running
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- Running ---- */
 
 /* A case under way. */
 typedef struct suite_job {

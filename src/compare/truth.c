@@ -105,8 +105,7 @@ static void count_pixels(truth_planes *p)
     }
 }
 
-/* ---- Tracing
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- Tracing ---- */
 
 static mns_status trace_row(const truth_desc *desc, const mns_reference *reference, int y, truth_planes *p,
                             mns_error *error)
@@ -209,8 +208,7 @@ mns_status truth_create(const truth_desc *desc, truth_planes **result, mns_error
     return MNS_OK;
 }
 
-/* ---- Of a saved image
- * ---------------------------------------------------------------------------------------------- */
+/* ---- Of a saved image ---- */
 
 mns_status truth_from_image(const mns_image *image, truth_planes **result, mns_error *error)
 {

@@ -59,8 +59,7 @@ static uint64_t checksum_of(double ms, const cache_plane *list, size_t count)
     return sum;
 }
 
-/* ---- Reading
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- Reading ---- */
 
 static bool read_file(FILE *file, truth_planes *p)
 {
@@ -92,8 +91,7 @@ bool truth_cache_read(truth_planes *planes)
     return good;
 }
 
-/* ---- Writing
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- Writing ---- */
 
 void truth_cache_write(truth_planes *planes)
 {

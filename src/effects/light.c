@@ -4,8 +4,7 @@
 
 #include <string.h>
 
-/* ---- Rays that only ask whether they meet anything
- * ------------------------------------------------------------ */
+/* ---- Rays that only ask whether they meet anything ---- */
 
 bool effects_ask(effects_walk *walk, const effects_surface *surface, vec3 way, double reach,
                  reference_answer *answer)
@@ -76,8 +75,7 @@ static double occlusion_of(effects_walk *walk, const effects_surface *surface)
     return open / count;
 }
 
-/* ---- Lights
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- Lights ---- */
 
 /* The unit direction towards a light, and how far it is. */
 static vec3 way_to(const mns_plan *plan, const mns_light *light, vec3 at, double *distance)

@@ -24,8 +24,7 @@ static mns_status take_size(image_picture *picture, const char *path, int width,
     return picture->rgb ? MNS_OK : status_no_memory(error, "reading a picture");
 }
 
-/* ---- OpenEXR
- * ------------------------------------------------------------------------------------------------ */
+/* ---- OpenEXR ---- */
 
 static mns_status read_exr(const char *path, image_picture *picture, mns_error *error)
 {
@@ -52,8 +51,7 @@ static mns_status read_exr(const char *path, image_picture *picture, mns_error *
     return status;
 }
 
-/* ---- PNG
- * ---------------------------------------------------------------------------------------------------- */
+/* ---- PNG ---- */
 
 /* A PNG's size is believed only where the file can hold it: deflate makes at most 1032 bytes of one, and a
  * pixel has at least a bit. */
@@ -98,8 +96,7 @@ done:
     return status;
 }
 
-/* ---- Either
- * ------------------------------------------------------------------------------------------------- */
+/* ---- Either ---- */
 
 /* The first byte tells the format; *size is the file's. */
 static mns_status look_at(const char *path, int *first, int64_t *size, mns_error *error)

@@ -113,8 +113,7 @@ static void place_pool(const generate_frame *f, uint64_t index, generate_ball *b
 const generate_shape generate_pool = {
     .name = "pool", .column = "height", .prepare = prepare_pool, .place = place_pool};
 
-/* ---- drop: a sphere of radius 0.14 falls 0.6 into a pool 1 x 0.25 x 1, spreads out flat and leaves rings
- * ---- */
+/* ---- drop: a sphere of radius 0.14 falls 0.6 into a pool 1 x 0.25 x 1 and leaves rings ---- */
 
 enum { DROP_SHARE = 24 }; /* one ball in so many belongs to the drop: as their volumes are */
 static const double drop_radius = 0.14, drop_start = 0.99, drop_pool = 0.25, drop_gravity = 4;

@@ -3,8 +3,7 @@
 
 #include <math.h>
 
-/* ---- scattered: independent in the unit cube, R = 0.8 N^(-1/3): 4/3 pi 0.8^3 = 2.1 spheres over a point
- * ---- */
+/* ---- scattered: independent in the unit cube, R = 0.8 N^(-1/3): 2.1 spheres over a point ---- */
 
 static void prepare_scattered(generate_frame *f)
 {

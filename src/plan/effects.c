@@ -10,8 +10,7 @@
 
 enum { LIGHTS_MOST = 256, RAYS_MOST = 4096, REFLECTIONS_MOST = 8, REFRACTIONS_MOST = 16 };
 
-/* ---- Checks
- * ------------------------------------------------------------------------------------------------- */
+/* ---- Checks ---- */
 
 static bool is_share(double x)
 {
@@ -67,8 +66,7 @@ static mns_status check_effects(const mns_effects *e, mns_error *error)
     return MNS_OK;
 }
 
-/* ---- Defaults
- * ----------------------------------------------------------------------------------------------- */
+/* ---- Defaults ---- */
 
 static void fill_light(mns_light *light)
 {
@@ -158,8 +156,7 @@ static void fill_effects(mns_look *look, const mns_field *field)
     if (!e->refractions) e->transmission = 0;
 }
 
-/* ---- What does something
- * ------------------------------------------------------------------------------------ */
+/* ---- What does something ---- */
 
 /* Whether light that is neither mirrored nor passed on is seen at all. */
 static bool is_shaded(const mns_plan *plan)
@@ -232,8 +229,7 @@ mns_status plan_effects(mns_plan *plan, const mns_field *field, mns_error *error
     return MNS_OK;
 }
 
-/* ---- What does not
- * ------------------------------------------------------------------------------------------ */
+/* ---- What does not ---- */
 
 static const char unasked[] = "nobody asks for them";
 

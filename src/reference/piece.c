@@ -25,8 +25,7 @@ void piece_range_of(const piece_balls *balls, double from, double to, piece_rang
     *range = (piece_range){lo - slack, hi + slack, loose, at_most};
 }
 
-/* ---- Sums of polynomials
- * ------------------------------------------------------------------------------------- */
+/* ---- Sums of polynomials ---- */
 
 typedef struct sum {
     int degree;

@@ -42,8 +42,7 @@ static int sign_at(const search *s, const piece_balls *balls, double x, piece_po
     return at->value > at->error ? 1 : at->value < -at->error ? -1 : 0;
 }
 
-/* ---- The end of a search
- * ---------------------------------------------------------------------------------------- */
+/* ---- The end of a search ---- */
 
 /* Draws the bracket [lo, hi] about `x`, near which F's sign is hidden, as tight as it can be proven. */
 static void settle(search *s, const piece_balls *balls, double x, const piece_point *here)
@@ -113,8 +112,7 @@ static void take_hidden(search *s, double hi)
     *r = (search_result){true, true, s->hidden_from, hi, s->hidden_from + 0.5 * (hi - s->hidden_from)};
 }
 
-/* ---- Pieces
- * ---------------------------------------------------------------------------------------------------- */
+/* ---- Pieces ---- */
 
 /* What a piece has been proven to be. */
 typedef enum verdict {

@@ -48,8 +48,7 @@ void reference_scratch_free(reference_scratch *scratch)
     memset(scratch, 0, sizeof *scratch);
 }
 
-/* ---- A ray
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- A ray ---- */
 
 static bool collect(const mns_reference *reference, reference_scratch *scratch, const reference_ray *ray,
                     double reach)
@@ -188,8 +187,7 @@ mns_status mns_reference_trace(const mns_reference *reference, const double orig
     return done ? MNS_OK : status_no_memory(error, "tracing a ray");
 }
 
-/* ---- A point
- * ---------------------------------------------------------------------------------------------------- */
+/* ---- A point ---- */
 
 typedef struct point_sum {
     const mns_field *field;

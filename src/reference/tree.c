@@ -22,8 +22,7 @@ bool reference_list_reserve(reference_list *list, size_t count)
     return true;
 }
 
-/* ---- Building
- * ------------------------------------------------------------------------------------------------ */
+/* ---- Building ---- */
 
 /* Puts the balls [first, last) in such an order along `axis` that none before `middle` lies beyond one after.
  * Both scans stop at equal keys, so that coincident centres split evenly too. */
@@ -103,8 +102,7 @@ void reference_tree_free(reference_tree *tree)
     memset(tree, 0, sizeof *tree);
 }
 
-/* ---- Asking
- * ------------------------------------------------------------------------------------------------ */
+/* ---- Asking ---- */
 
 typedef struct slabs {
     double origin[3], inverse[3], pad[3], reach;

@@ -4,9 +4,7 @@
 
 #include <string.h>
 
-/* ---- Gathered
- * ----------------------------------------------------------------------------------------------------------
- */
+/* ---- Gathered ---- */
 
 static mns_status grow_pool(draw *d, size_t nodes, mns_error *error)
 {
@@ -42,9 +40,7 @@ static mns_status gather(draw *d, list_region region, bool *fits, mns_error *err
     return MNS_OK;
 }
 
-/* ---- Tiles
- * ----------------------------------------------------------------------------------------------------------
- */
+/* ---- Tiles ---- */
 
 static mns_status upload_tiles(draw *d, mns_error *error)
 {

@@ -11,8 +11,7 @@
 
 #include <string.h>
 
-/* ---- Colours
- * ------------------------------------------------------------------------------------------------ */
+/* ---- Colours ---- */
 
 static mns_status make_labels(draw *d, mns_error *error)
 {
@@ -78,8 +77,7 @@ static void surface_albedo(const void *user, const reference_scratch *scratch, d
     for (int c = 0; c < 3; c++) color[c] = (double)blended[c];
 }
 
-/* ---- Pixels
- * ------------------------------------------------------------------------------------------------- */
+/* ---- Pixels ---- */
 
 typedef struct row_counts {
     uint64_t hits, undecided, effects_rays, effects_undecided;
@@ -149,8 +147,7 @@ static bool trace_row(draw *d, reference_scratch *scratch, int y, const double j
     return true;
 }
 
-/* ---- Frames
- * ------------------------------------------------------------------------------------------------- */
+/* ---- Frames ---- */
 
 static mns_status begin_effects(draw *d, mns_error *error)
 {

@@ -7,8 +7,7 @@
 /* Features that change what is sent of a ball. */
 #define TREE_FEATURES (FEATURE_RADII | FEATURE_STRENGTHS)
 
-/* ---- The tree
- * --------------------------------------------------------------------------------------------------- */
+/* ---- The tree ---- */
 
 static bool same_tree(const draw *d)
 {
@@ -88,8 +87,7 @@ mns_status draw_tree_begin(draw *d, mns_error *error)
     return status;
 }
 
-/* ---- The rays
- * --------------------------------------------------------------------------------------------------- */
+/* ---- The rays ---- */
 
 mns_status draw_tree_low(draw *d, mns_phase phase, mns_error *error)
 {
@@ -153,8 +151,7 @@ mns_status draw_tree_sample(draw *d, mns_error *error)
     return status;
 }
 
-/* ---- The next frame's tree
- * -------------------------------------------------------------------------------------- */
+/* ---- The next frame's tree ---- */
 
 mns_status mns_renderer_prepare(mns_renderer *r, const mns_field *field, const mns_options *options,
                                 mns_error *error)

@@ -7,8 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- Numbers
- * ------------------------------------------------------------------------------------------------ */
+/* ---- Numbers ---- */
 
 static mns_status read_levels(scene_reader *r, const char *key, const json_t *value, void *target)
 {
@@ -61,8 +60,7 @@ static mns_status read_seed(scene_reader *r, const char *key, const json_t *valu
     return MNS_OK;
 }
 
-/* ---- Lights
- * ------------------------------------------------------------------------------------------------- */
+/* ---- Lights ---- */
 
 static mns_status read_kind(scene_reader *r, const char *key, const json_t *value, void *target)
 {
@@ -121,8 +119,7 @@ mns_status scene_read_lights(scene_reader *r, const char *key, const json_t *val
     return MNS_OK;
 }
 
-/* ---- Effects
- * ------------------------------------------------------------------------------------------------ */
+/* ---- Effects ---- */
 
 /* true, false, or how many samples. */
 static mns_status read_shadows(scene_reader *r, const char *key, const json_t *value, void *target)

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- Inputs ----------------------------------------------------------------------------------------- */
+/* ---- Inputs ---- */
 
 static mns_status read_inputs(scene_reader *r, const char *key, const json_t *value, void *target)
 {
@@ -44,7 +44,7 @@ static mns_status read_input_list(scene_reader *r, const char *key, const json_t
     return read_inputs(r, key, value, target);
 }
 
-/* ---- The tables ------------------------------------------------------------------------------------- */
+/* ---- The tables ---- */
 
 /* The value tells whether it is given, or a bit of `set` does. */
 #define KEY(name, read, member) name, read, offsetof(mns_scene, member), 0, 0

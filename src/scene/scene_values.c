@@ -40,7 +40,7 @@ mns_status scene_wrong(scene_reader *r, const char *key, const json_t *value, co
                        type_name(value), expected);
 }
 
-/* ---- Numbers, colours ------------------------------------------------------------------------------- */
+/* ---- Numbers, colours ---- */
 
 static mns_status read_number(scene_reader *r, const char *key, const json_t *value, void *target)
 {
@@ -185,7 +185,7 @@ mns_status scene_read_size(scene_reader *r, const char *key, const json_t *value
     return MNS_OK;
 }
 
-/* ---- Names ------------------------------------------------------------------------------------------ */
+/* ---- Names ---- */
 
 /* The value as an index below `count` by its name; `name_of` gives NULL for an index that has none. */
 static mns_status read_name(scene_reader *r, const char *key, const json_t *value,

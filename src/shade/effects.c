@@ -36,8 +36,7 @@ typedef struct effects_block {
     int32_t size[4];
 } effects_block;
 
-/* ---- What is sent
- * ----------------------------------------------------------------------------------------------- */
+/* ---- What is sent ---- */
 
 static void put_light(effects_block *block, size_t i, const mns_plan *plan)
 {
@@ -106,8 +105,7 @@ mns_status shade_effects_send(shade_effects *e, gl_device *device, const mns_pla
     return MNS_OK;
 }
 
-/* ---- The environment's map
- * -------------------------------------------------------------------------------------- */
+/* ---- The environment's map ---- */
 
 static bool same_map(const shade_effects *e, const char *name, const struct stat *file)
 {
@@ -175,8 +173,7 @@ done:
     return status;
 }
 
-/* ---- Walks
- * ------------------------------------------------------------------------------------------------------ */
+/* ---- Walks ---- */
 
 static size_t walk_bytes(const mns_plan *plan)
 {

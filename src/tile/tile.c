@@ -9,9 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Balls
- * ----------------------------------------------------------------------------------------------------------
- */
+/* ---- Balls ---- */
 
 /* What a binning reads, and the entries that its bands have come to together. */
 typedef struct tile_work {
@@ -136,9 +134,7 @@ static bool take_ball(tile_bins *bins, tile_band *band, const tile_work *work, u
     return mask_wait(band, &core);
 }
 
-/* ---- Bands
- * ----------------------------------------------------------------------------------------------------------
- */
+/* ---- Bands ---- */
 
 enum { BAND_BLOCK = 1024 };
 

@@ -9,8 +9,7 @@
 
 enum { CHUNK = 4096 }; /* pairs that a thread takes at once */
 
-/* ---- Nodes
- * -------------------------------------------------------------------------------------------------- */
+/* ---- Nodes ---- */
 
 trace_grid trace_grid_of(const fbvh_tree *tree)
 {
@@ -84,8 +83,7 @@ void trace_pack_nodes(const fbvh_tree *tree, const trace_grid *grid, trace_pair 
     for (size_t i = 0; i < grid->pair_count; i++) pack_pair(tree, grid, i, &leaf_at, &pair[i], leaf);
 }
 
-/* ---- Balls
- * -------------------------------------------------------------------------------------------------- */
+/* ---- Balls ---- */
 
 void trace_pack_balls(const fbvh_tree *tree, const mns_plan *plan, float *out)
 {

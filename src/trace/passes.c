@@ -8,8 +8,7 @@
 
 enum { UNIFORM_BASE = 0, UNIFORM_CELL = 1, UNIFORM_ROOT = 2, UNIFORM_REGION = 3, UNIFORM_SECANT_STEPS = 4 };
 
-/* ---- What is traced
- * --------------------------------------------------------------------------------------------- */
+/* ---- What is traced ---- */
 
 static mns_status map(gl_device *device, const mns_plan *plan, gl_buffer *buffer, const char *what,
                       size_t size, void **data, mns_error *error)
@@ -115,8 +114,7 @@ mns_status trace_upload_low(trace_passes *t, gl_device *device, const mns_plan *
     return MNS_OK;
 }
 
-/* ---- Passes
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- Passes ---- */
 
 static void bind_texels(gl_device *device, GLuint *texture, GLenum unit, GLenum format,
                         const gl_buffer *buffer)

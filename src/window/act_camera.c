@@ -94,9 +94,7 @@ mns_status action_widen(viewer *v, const words *w, mns_error *error)
     return moved(v);
 }
 
-/* ---- The mouse
- * ---------------------------------------------------------------------------------------------------------
- */
+/* ---- The mouse ---- */
 
 mns_status action_drag(viewer *v, const words *w, mns_error *error)
 {

@@ -55,8 +55,7 @@ mns_status action_open_input(viewer *v, const words *w, mns_error *error)
     return status;
 }
 
-/* ---- Comparing
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- Comparing ---- */
 
 mns_status action_compare(viewer *v, const words *w, mns_error *error)
 {

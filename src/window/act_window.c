@@ -54,8 +54,7 @@ mns_status action_loop(viewer *v, const words *w, mns_error *error)
     return MNS_OK;
 }
 
-/* ---- The window
- * ------------------------------------------------------------------------------------------------------- */
+/* ---- The window ---- */
 
 mns_status action_size(viewer *v, const words *w, mns_error *error)
 {

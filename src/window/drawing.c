@@ -63,8 +63,7 @@ void drawing_change(viewer *v, bool moves)
     if (moves) v->moved_ms = clock_ms();
 }
 
-/* ---- One bit of it
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- One bit of it ---- */
 
 static mns_status draw_side(viewer *v, int i, const mns_view *view, const mns_options *options,
                             mns_error *error)
@@ -209,8 +208,7 @@ mns_status drawing_finish(viewer *v, mns_error *error)
     return status;
 }
 
-/* ---- On the window
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- On the window ---- */
 
 static screen_picture picture_of(const side *s)
 {

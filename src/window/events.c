@@ -141,8 +141,7 @@ bool events_spin(viewer *v)
     return true;
 }
 
-/* ---- Under the cursor
- * ---------------------------------------------------------------------------------------------------- */
+/* ---- Under the cursor ---- */
 
 static void tell_columns(const viewer *v, size_t ball, char *text, size_t size)
 {

@@ -11,9 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- Values
- * ---------------------------------------------------------------------------------------------------------
- */
+/* ---- Values ---- */
 
 static void put(json_t *to, const char *key, json_t *value)
 {
@@ -50,8 +48,7 @@ static json_t *file_name(const char *name)
     return text;
 }
 
-/* ---- Parts of a scene
- * -------------------------------------------------------------------------------------------------- */
+/* ---- Parts of a scene ---- */
 
 static json_t *inputs_of(const window_settings *s)
 {
@@ -175,9 +172,7 @@ static json_t *effects_of(const mns_look *look)
     return to;
 }
 
-/* ---- The file
- * ----------------------------------------------------------------------------------------------------------
- */
+/* ---- The file ---- */
 
 static json_t *scene_of(const window_settings *s, const mns_look *look, const mns_view *view, long frame)
 {

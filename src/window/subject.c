@@ -42,9 +42,7 @@ void subject_close(viewer *v)
     player_close(&v->player);
 }
 
-/* ---- Opening
- * ----------------------------------------------------------------------------------------------------------
- */
+/* ---- Opening ---- */
 
 /* The fields that an opened input begins with. */
 typedef struct beginning {
@@ -152,9 +150,7 @@ mns_reference *subject_reference(viewer *v)
     return v->reference;
 }
 
-/* ---- Frames
- * -----------------------------------------------------------------------------------------------------------
- */
+/* ---- Frames ---- */
 
 static void show_field(viewer *v, mns_field *field, long frame)
 {

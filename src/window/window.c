@@ -16,9 +16,7 @@
 
 static const double FLICKER_MS = 400;
 
-/* ---- Telling
- * ----------------------------------------------------------------------------------------------------------
- */
+/* ---- Telling ---- */
 
 void viewer_tell(viewer *v, const char *format, ...)
 {
@@ -97,8 +95,7 @@ void viewer_resize(viewer *v, int width, int height)
     drawing_change(v, true);
 }
 
-/* ---- The panel
- * -------------------------------------------------------------------------------------------------------- */
+/* ---- The panel ---- */
 
 static void act(void *context, const char *line)
 {
@@ -147,8 +144,7 @@ void viewer_help(viewer *v)
     v->polish = 3;
 }
 
-/* ---- What GLFW tells
- * -------------------------------------------------------------------------------------------------- */
+/* ---- What GLFW tells ---- */
 
 static bool mouse_is_taken(const viewer *v)
 {
@@ -221,8 +217,7 @@ bool viewer_flies(const viewer *v, double way[3])
     return flies;
 }
 
-/* ---- Opening and closing
- * -------------------------------------------------------------------------------------------- */
+/* ---- Opening and closing ---- */
 
 static void listen(viewer *v)
 {
@@ -276,9 +271,7 @@ static void close_all(viewer *v)
     if (v->window) glfwDestroyWindow(v->window);
 }
 
-/* ---- The loop
- * ---------------------------------------------------------------------------------------------------------
- */
+/* ---- The loop ---- */
 
 /* The next lines of the script, until one waits. Errors: as the action's, with the script's line. */
 static mns_status run_script(viewer *v, mns_error *error)

@@ -5,8 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* ---- The balls that a ray meets
- * ------------------------------------------------------------------------------------- */
+/* ---- The balls that a ray meets ---- */
 
 static void ball_init(line_ball *b)
 {
@@ -134,8 +133,7 @@ void line_end(line *l)
     arb_clear(l->length);
 }
 
-/* ---- Enclosures
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- Enclosures ---- */
 
 void line_bounds_init(line_bounds *b)
 {
@@ -238,8 +236,7 @@ void line_enclose_between(const line *l, const size_t *active, size_t count, con
     line_bounds_clear(&at);
 }
 
-/* ---- Intervals
- * ------------------------------------------------------------------------------------------------------ */
+/* ---- Intervals ---- */
 
 size_t line_active(const line *l, const size_t *from, size_t count, const arf_t lo, const arf_t hi,
                    size_t *to)

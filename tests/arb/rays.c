@@ -3,9 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- Dice
- * -----------------------------------------------------------------------------------------------------------
- */
+/* ---- Dice ---- */
 
 typedef struct dice {
     uint64_t state;
@@ -49,9 +47,7 @@ static void unit_vector(dice *d, double v[3])
     for (int a = 0; a < 3; a++) v[a] /= length;
 }
 
-/* ---- Fields
- * ---------------------------------------------------------------------------------------------------------
- */
+/* ---- Fields ---- */
 
 /* What finds no room is left out. */
 static void add(rays_case *c, double x, double y, double z, double radius, double strength)
@@ -144,9 +140,7 @@ static void coincident(rays_case *c, dice *d)
     }
 }
 
-/* ---- Rays
- * -----------------------------------------------------------------------------------------------------------
- */
+/* ---- Rays ---- */
 
 static void aim(rays_case *c, const double from[3], const double at[3])
 {
@@ -317,9 +311,7 @@ static void move(rays_case *c, dice *d)
     }
 }
 
-/* ---- Cases
- * ----------------------------------------------------------------------------------------------------------
- */
+/* ---- Cases ---- */
 
 static const char *const names[RAYS_KINDS] = {
     "scattered",  "dense",  "mixed",      "signed", "silhouette", "silhouette far", "neck",    "chords' ends",

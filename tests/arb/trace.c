@@ -34,8 +34,7 @@ static int sign_at(search *w, const size_t *active, size_t count, const arf_t s)
     return sign;
 }
 
-/* ---- A root on a monotone interval
- * ------------------------------------------------------------------------------------ */
+/* ---- A root on a monotone interval ---- */
 
 /* One step of Newton's method over [lo, hi], all of it enclosed: false where it does not halve the interval.
  */
@@ -94,8 +93,7 @@ static step refine(search *w, const size_t *active, size_t count, const arf_t fr
     return result;
 }
 
-/* ---- The search
- * --------------------------------------------------------------------------------------------------- */
+/* ---- The search ---- */
 
 static step search_between(search *w, const size_t *from, size_t from_count, const arf_t lo, const arf_t hi,
                            int depth)

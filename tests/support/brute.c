@@ -6,8 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- The kernels, from the design's table
- * -------------------------------------------------------------------- */
+/* ---- The kernels, from the design's table ---- */
 
 long double brute_kernel(mns_kernel kernel, long double u, long double *slope_over_v)
 {
@@ -71,8 +70,7 @@ long double brute_kernel_curvature_bound(mns_kernel kernel)
     }
 }
 
-/* ---- The field at a point
- * ------------------------------------------------------------------------------------ */
+/* ---- The field at a point ---- */
 
 struct brute {
     const mns_field *field;
@@ -123,8 +121,7 @@ long double brute_value(const brute *oracle, const long double x[3])
     return sum;
 }
 
-/* ---- The walk along a ray
- * ------------------------------------------------------------------------------------ */
+/* ---- The walk along a ray ---- */
 
 /* With s = +1 inside and -1 outside, the walk looks at F = s (f - L), which is positive until the hit. On [t,
  * t + h], with |f''| <= M there, F(t + h) >= F + F' h - M h^2 / 2: so far a step may go without passing a

@@ -43,8 +43,7 @@ brute_ray brute_pixel_ray(const mns_view *view, int x, int y)
     return ray;
 }
 
-/* ---- Random pixels
- * --------------------------------------------------------------------------------------------- */
+/* ---- Random pixels ---- */
 
 static uint64_t random_bits(uint64_t *state) /* splitmix64: Steele, Lea, Flood 2014 */
 {
@@ -85,8 +84,7 @@ static size_t *draw_pixels(const mns_image *image, size_t *rays, uint64_t seed)
     return pixel;
 }
 
-/* ---- The tally
- * ------------------------------------------------------------------------------------------------- */
+/* ---- The tally ---- */
 
 struct brute_tally {
     brute_report report;
