@@ -93,7 +93,7 @@ bool ray_again(ivec2 at)
 {
     uint from = place_path;
 #ifdef PATHS_ON
-    if (path_asks == ASKS_PATH) from = wait_rest[path_top - 1].x >> 1u;
+    if (place_path == 0u) from = wait_rest[path_top - 1].x >> 1u;
 #endif
     bool first = from == 1u;
     REAL s = NUM(0.0);

@@ -16,7 +16,8 @@ vec3 environment_texel(int x, int y, ivec2 size)
 vec3 environment_look(vec3 d)
 {
     ivec2 size = textureSize(environment_map, 0);
-    float across = (0.5 + atan(d.x, -d.z) * 0.15915494309189535) * float(size.x) - 0.5;
+    float ahead = d.x == 0.0 && d.z == 0.0 ? -1.0 : -d.z; // straight up and down have no longitude
+    float across = (0.5 + atan(d.x, ahead) * 0.15915494309189535) * float(size.x) - 0.5;
     float down = acos(clamp(d.y, -1.0, 1.0)) * 0.3183098861837907 * float(size.y) - 0.5;
     int left = int(floor(across));
     int top = int(floor(down));

@@ -21,7 +21,8 @@ DENSITY_FN REAL optics_fresnel(REAL ratio, REAL cosine)
 // What of the normal n (towards the ray, n . way = -cosine) goes into the refracted ray, which is (way + bend n) / ratio.
 DENSITY_FN REAL optics_bend(REAL ratio, REAL cosine)
 {
-    return cosine - sqrt(optics_beyond(ratio, cosine));
+    REAL beyond = optics_beyond(ratio, cosine);
+    return cosine - (beyond > NUM(0.0) ? sqrt(beyond) : NUM(0.0)); // what decided that a ray goes through may have rounded otherwise
 }
 
 // A ray whose share of the pixel is below this, in every channel, is not worth its cost: it sees the environment.

@@ -1,4 +1,4 @@
-// Walks that wait for another dispatch. Whatever list of redo_entry a walk is on (PathLists), it has
+// Walks that wait for another dispatch. Whatever list of redo_entry a walk is on (path_lists), it has
 // the slot of the store that it was given in the first; an entry is x + 65536 y, the slot with the flags below, and where a walk along a
 // ray in doubles has come to, as bits.
 

@@ -95,7 +95,8 @@ static mns_status host_set(void *context, const char *name, const char *value, m
     view_words words;
     mns_status status = copy(job, &words, error);
     if (status) return status;
-    return become(job, words, view_words_set(&words, &job->table, name, value), error);
+    bool whole = view_words_set(&words, &job->table, name, value); /* may move what `words` holds */
+    return become(job, words, whole, error);
 }
 
 static mns_status host_open(void *context, const char *const *names, size_t count, mns_error *error)

@@ -5,6 +5,7 @@
 #include "effects/environment.h"
 #include "shade/shade.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +26,8 @@ enum {
 /* Beyond this distance from the field a light is moved nearer, in its direction and in proportion: floats
  * square it, and nothing of it is seen to change. */
 #define LIGHT_FARTHEST 1e18
+/* Light and absorption beyond this are sent as this: a float's infinity times no share would be no number. */
+#define MOST 1e30
 
 /* As glsl/paths.glsl has it. */
 typedef struct effects_block {
@@ -50,7 +53,7 @@ static void put_light(effects_block *block, size_t i, const mns_plan *plan)
     vec3_store(block->place[i], vec3_scale(place, nearer));
     block->place[i][3] = radius * nearer;
     for (int c = 0; c < 3; c++)
-        block->radiance[i][c] = (float)(light->strength * color_linear(light->color[c]));
+        block->radiance[i][c] = (float)fmin(light->strength * color_linear(light->color[c]), MOST);
     block->radiance[i][3] = (float)light->kind;
     block->counts[1] += light->kind != MNS_LIGHT_HEAD;
 }
@@ -85,7 +88,7 @@ static void fill(effects_block *block, const mns_plan *plan, const double jitter
     put_axis(block->right, around.right);
     put_axis(block->up, around.up);
     put_axis(block->back, around.back);
-    for (int c = 0; c < 3; c++) block->absorption[c] = (float)e->absorption[c];
+    for (int c = 0; c < 3; c++) block->absorption[c] = (float)fmin(e->absorption[c], MOST);
     block->counts[0] = (int32_t)plan->look.light_count;
     block->counts[2] = e->shadow_samples, block->counts[3] = e->occlusion_rays;
     block->levels[0] = (uint32_t)e->reflections, block->levels[1] = (uint32_t)e->refractions;

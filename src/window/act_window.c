@@ -113,7 +113,7 @@ mns_status action_panel_toggle(viewer *v, const words *w, mns_error *error)
 {
     (void)w;
     if (v->panel)
-        viewer_close_panel(v);
+        v->panel_goes = !v->panel_goes;
     else if (!viewer_open_panel(v))
         return status_fail(error, MNS_ERROR_UNSUPPORTED,
                            "this build has no panel (it needs Dear ImGui); keys do it all: ?");

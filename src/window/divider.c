@@ -9,6 +9,12 @@
 #include <stdio.h>
 #include <string.h>
 
+/* No tree is built for the other side any longer: what it is built of may go. */
+static void settle_other(viewer *v)
+{
+    if (v->side[1].renderer) mns_renderer_prepare(v->side[1].renderer, NULL, NULL, NULL);
+}
+
 mns_status divider_other(viewer *v, const char *name, mns_error *error)
 {
     run_spec *runs = NULL;
@@ -17,6 +23,7 @@ mns_status divider_other(viewer *v, const char *name, mns_error *error)
     if (!status && count != 1)
         status = status_fail(error, MNS_ERROR_USAGE, "compare %.80s: expected one METHOD:SOLVER", name);
     if (!status) {
+        settle_other(v);
         v->other = runs[0].options;
         snprintf(v->other_name, sizeof v->other_name, "%s", runs[0].name);
     }
@@ -31,7 +38,9 @@ void divider_mode(viewer *v, compare_mode mode)
     v->stale = true;
     v->flicker_b = false;
     if (mode != COMPARE_OFF && !had) drawing_change(v, false);
-    if (mode == COMPARE_OFF) v->difference.is_known = false;
+    if (mode != COMPARE_OFF) return;
+    v->difference.is_known = false;
+    settle_other(v);
 }
 
 bool divider_is_near(const viewer *v, double x)

@@ -95,6 +95,7 @@ static mns_status draw(viewer *v, double scale, int samples, int first, mns_erro
         options.sample_count = samples > 1;
         status = draw_side(v, i, &view, &options, error);
     }
+    if (status) subject_settle(v); /* a side may not have come to take its tree */
     v->stale = true;
     v->draws++;
     if (!status && v->on_trial) {

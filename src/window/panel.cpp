@@ -15,7 +15,7 @@
 
 namespace
 {
-enum { HISTORY = 120 };
+enum { HISTORY = 120, ACTS = 8, ACT_SIZE = 256 };
 }
 
 struct panel {
@@ -27,6 +27,8 @@ struct panel {
     int at;
     size_t draws;
     float iso, radius_scale; /* while a slider is held */
+    char acts[ACTS][ACT_SIZE]; /* what this showing asked for */
+    int act_count;
 };
 
 namespace
@@ -34,14 +36,14 @@ namespace
 
 void act(panel *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* Done when the panel has been shown: an action may free what it is shown from. */
 void act(panel *p, const char *format, ...)
 {
-    char line[256];
     va_list arguments;
+    if (p->act_count == ACTS) return; /* a hand does one at a time */
     va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
+    vsnprintf(p->acts[p->act_count++], ACT_SIZE, format, arguments);
     va_end(arguments);
-    p->desc.act(p->desc.context, line);
 }
 
 void choose(panel *p, const panel_choice &c)
@@ -229,6 +231,8 @@ void panel_show(panel *p, const panel_content *content)
     main_window(p, *content);
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    for (int i = 0; i < p->act_count; i++) p->desc.act(p->desc.context, p->acts[i]);
+    p->act_count = 0;
 }
 
 bool panel_takes_mouse(const panel *p)

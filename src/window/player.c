@@ -74,10 +74,8 @@ void player_close(player *p)
 void player_ask(player *p, long frame)
 {
     pthread_mutex_lock(&p->lock);
-    if (p->reading != frame) {
-        p->asked = frame;
-        pthread_cond_signal(&p->changed);
-    }
+    p->asked = p->reading == frame ? -1 : frame; /* what was asked for before is wanted no more */
+    if (p->asked >= 0) pthread_cond_signal(&p->changed);
     pthread_mutex_unlock(&p->lock);
 }
 

@@ -6,8 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What is being made ahead of a field has come to its end, and the field may go. */
-static void settle(viewer *v)
+void subject_settle(viewer *v)
 {
     for (int i = 0; i < SIDES; i++)
         if (v->side[i].renderer) mns_renderer_prepare(v->side[i].renderer, NULL, NULL, NULL);
@@ -16,7 +15,7 @@ static void settle(viewer *v)
 static void drop_ahead(viewer *v)
 {
     if (!v->ahead) return;
-    settle(v);
+    subject_settle(v);
     mns_field_destroy(v->ahead);
     v->ahead = NULL;
 }
@@ -34,7 +33,7 @@ static void drop_field(viewer *v)
 
 void subject_close(viewer *v)
 {
-    settle(v);
+    subject_settle(v);
     drop_ahead(v);
     drop_field(v);
     mns_field_destroy(v->first);
@@ -135,7 +134,7 @@ mns_status subject_follow(viewer *v, mns_error *error)
         v->camera = camera_of(&view);
         v->seen = s->view;
     }
-    settle(v);
+    subject_settle(v);
     subject_look(v);
     drawing_change(v, false);
     return MNS_OK;
@@ -203,7 +202,7 @@ static void take(viewer *v)
     if (!player_take(&v->player, &frame, &field, &v->read_ms, &status, &error)) return;
     if (status) {
         timeline_pause(&v->timeline);
-        v->wanted = -1;
+        if (frame == v->wanted) v->wanted = -1;
         viewer_tell_error(v, &error);
     } else if (frame == v->wanted) {
         v->wanted = -1;

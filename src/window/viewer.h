@@ -61,9 +61,10 @@ typedef struct viewer {
     struct GLFWwindow *window;
     mns_get_proc get_proc;
     screen screen;
-    panel *panel; /* NULL: closed, or not built in */
-    char *keys;   /* their list */
-    char title[240];
+    panel *panel;    /* NULL: closed, or not built in */
+    bool panel_goes; /* at the next turn: its own callbacks may be what asked for it */
+    char *keys;      /* their list */
+    char title[320];
     char status[STATUS_SIZE]; /* the last thing that was told */
     bool closing;
 
@@ -141,6 +142,8 @@ void viewer_help(viewer *v);
 /* subject.c: opens what the settings name, from their frame on; on failure all stays as it is. `fits`: look
  * at the whole of it. Errors: as mns_input_open and mns_input_read. */
 mns_status subject_open(viewer *v, bool fits, mns_error *error);
+/* What is being made ahead of a field has come to its end, and the field may go. */
+void subject_settle(viewer *v);
 void subject_close(viewer *v);
 /* What the settings say after a change of one: opens the input anew only where it must. Errors: as
  * subject_open. */

@@ -58,9 +58,8 @@ static void show_title(viewer *v)
     if (v->compare != COMPARE_OFF && v->difference.is_known && used < sizeof title)
         used +=
             (size_t)snprintf(title + used, sizeof title - used, ": %zu pixels differ", v->difference.pixels);
-    if (*v->status && used < sizeof title)
-        snprintf(title + used, sizeof title - used, " - %.100s",
-                 v->hover.is_on && *v->hover.text ? v->hover.text : v->status);
+    const char *last = v->hover.is_on && *v->hover.text ? v->hover.text : v->status;
+    if (*last && used < sizeof title) snprintf(title + used, sizeof title - used, " - %.160s", last);
     if (strcmp(title, v->title) == 0) return;
     memcpy(v->title, title, sizeof title);
     glfwSetWindowTitle(v->window, title);
@@ -132,6 +131,7 @@ void viewer_close_panel(viewer *v)
 {
     panel_close(v->panel);
     v->panel = NULL;
+    v->panel_goes = false;
     v->stale = true;
 }
 
@@ -302,6 +302,7 @@ static double turn(viewer *v, mns_status *status, mns_error *error)
     mns_error why;
     *status = run_script(v, error);
     if (*status) return 0;
+    if (v->panel_goes) viewer_close_panel(v);
     bool flies = events_spin(v) || events_fly(v);
     wait = subject_step(v);
     if (drawing_step(v, &again, &why)) {
