@@ -20,7 +20,7 @@ void timeline_play(timeline *t, double now_ms);
 void timeline_pause(timeline *t);
 /* Times the rate, kept within 1/64 and 64. */
 void timeline_speed(timeline *t, double speed, double now_ms);
-/* Kept within the sequence; pauses. */
+/* Kept within the sequence. */
 long timeline_clamp(const timeline *t, long frame);
 
 /* The frame to read next: of those after the one shown the first that can still be shown in time, `lead_ms`

@@ -213,7 +213,7 @@ mns_status action_run(viewer *v, const char *line, mns_error *error);
 /* The same, an error being told to the user. */
 void action_do(viewer *v, const char *line);
 
-/* figures.c: says what the check came to, once. */
+/* check_tell.c: says what the check came to, once. */
 void check_tell(viewer *v);
 
 /* save.c: .png and .exr: the picture; .json: the scene. Errors: as their writing. */

@@ -287,7 +287,7 @@ static mns_status run_script(viewer *v, mns_error *error)
         const char *line = script_next(s);
         if (!line) return MNS_OK;
         mns_status status = action_run(v, line, &why);
-        /* What a hand would be told, a script is told; what no hand could do ends it. */
+        /* What cannot be opened or drawn is told; a line that makes no sense ends the script. */
         if (status && status != MNS_ERROR_USAGE) viewer_tell_error(v, &why);
         if (status == MNS_ERROR_USAGE)
             return status_fail(error, status, "%.100s:%zu: %.340s", s->path, s->line, why.text);

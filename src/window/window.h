@@ -50,7 +50,8 @@ typedef struct window_desc {
 } window_desc;
 
 /* Opens the window and stays until it is closed. Main thread only. Errors: GL (no display, a driver
- * below 4.3), IO and USAGE (the script), and what the first frame gives. */
+ * below 4.3), IO and USAGE (the script). What cannot be
+ * drawn is told, and the window stays. */
 mns_status window_run(const window_desc *desc, mns_error *error);
 
 /* The actions of scripts and keys, a line each, as --help prints them; for free(). NULL: out of memory. */
