@@ -11,7 +11,7 @@ static mns_image *draw_chosen(draw_fixture *d, const mns_field *field, const mns
                               mns_options options, mns_method *method)
 {
     mns_error error;
-    mns_image *image;
+    mns_image *image = NULL;
     if (mns_renderer_draw(d->renderer, field, view, NULL, &options, d->frame, &error) ||
         mns_frame_read(d->frame, &image, &error))
         fail_msg("%s", error.text);

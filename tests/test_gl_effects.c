@@ -225,7 +225,7 @@ static void terms_reach_the_image_and_its_file(void **state)
     draw_fixture *d = *state;
     char path[] = "/tmp/effects-XXXXXX.exr";
     mns_error error;
-    mns_image *read;
+    mns_image *read = NULL;
     mns_field *field = draw_generated("scattered:100", MNS_KERNEL_DEFAULT);
     mns_image *image = draw_image(d, field, &small, &everything, &traced);
     float *const terms[] = {image->shadow, image->occlusion, image->mirror_t, image->refract_t,

@@ -254,7 +254,7 @@ static void expect_read_back(const mns_image *counted)
 {
     mns_error error;
     char path[] = "/tmp/mns_work_XXXXXX.exr";
-    mns_image *back;
+    mns_image *back = NULL;
     int file = mkstemps(path, 4);
     assert_true(file >= 0);
     close(file);
