@@ -90,6 +90,29 @@ static void texels_and_storage_blocks_give_the_same_bits(void **state)
     draw_fixture_check(d);
 }
 
+static void squares_and_the_whole_frame_give_the_same_bits(void **state)
+{
+    draw_fixture *d = *state;
+    double point = d->renderer->device.limits.max_point_size;
+    if (point < SQUARE_MOST) skip();
+    mns_view view = exact_view();
+    mns_look look = {.color_by = "speed"};
+    mns_field *field = draw_generated("tornado:300", MNS_KERNEL_POLY3);
+    view.width = 131, view.height = 77;
+    mns_options tile = tile_options();
+    mns_image *squares = draw_image(d, field, &view, &look, &tile);
+    assert_true(mns_plan_features(mns_frame_plan(d->frame)) & FEATURE_SQUARES);
+    d->renderer->device.limits.max_point_size = 1;
+    mns_image *whole = draw_image(d, field, &view, &look, &tile);
+    assert_false(mns_plan_features(mns_frame_plan(d->frame)) & FEATURE_SQUARES);
+    d->renderer->device.limits.max_point_size = point;
+    draw_expect_same(squares, whole, "squares");
+    mns_image_destroy(squares);
+    mns_image_destroy(whole);
+    mns_field_destroy(field);
+    draw_fixture_check(d);
+}
+
 /* What a path that goes on elsewhere must keep: every hit, and t to a few of a float's roundings. */
 static void expect_close(const mns_image *a, const mns_image *b, const char *what)
 {
@@ -233,6 +256,7 @@ int main(void)
         cmocka_unit_test(a_frame_in_parts_has_the_same_bits),
         cmocka_unit_test(a_pixel_whose_list_alone_passes_the_limit_is_refused),
         cmocka_unit_test(texels_and_storage_blocks_give_the_same_bits),
+        cmocka_unit_test(squares_and_the_whole_frame_give_the_same_bits),
         cmocka_unit_test(the_slower_ways_draw_the_same_picture),
         cmocka_unit_test(nothing_of_the_gathering_is_made),
         cmocka_unit_test(what_has_not_moved_is_binned_once),

@@ -140,11 +140,11 @@ static const scene scenes[] = {
     {"tiles, the least driver", .desc = {SCENE_UNIT}, TILE_METHOD, .features = POLY3 | CORE | TILES,
      .passes = TILE_PASSES, .left_out = "reading by texels: this driver's buffer textures are too small"},
     {"tiles, llvmpipe", .generator = "scattered:20000", .limits = &scene_llvmpipe, TILE_METHOD,
-     .features = POLY3 | CORE | FEATURE_FAR | FEATURE_TEXELS | TILES, .passes = TILE_PASSES,
+     .features = POLY3 | CORE | FEATURE_FAR | FEATURE_TEXELS | TILES | FEATURE_SQUARES, .passes = TILE_PASSES,
      .left_out = "gather: tiles are binned on the CPU"},
     {"tiles, large balls too", .desc = {SCENE_UNIT}, SCENE_EYE(0, 0, 0.9), .limits = &scene_llvmpipe,
-     TILE_METHOD, .features = POLY3 | CORE | IN_BALL | FEATURE_TEXELS | TILES, .passes = TILE_PASSES,
-     .left_out = "billboards: tiles are binned on the CPU"},
+     TILE_METHOD, .features = POLY3 | CORE | IN_BALL | FEATURE_TEXELS | TILES | FEATURE_SQUARES,
+     .passes = TILE_PASSES, .left_out = "billboards: tiles are binned on the CPU"},
     {"tiles, a core radius each", .desc = {SCENE_UNIT, .strength = {.data = scene_gains}}, TILE_METHOD,
      .features = POLY3 | STRENGTHS | CORE | FEATURE_CORE_RADII | TILES, .passes = TILE_PASSES,
      .left_out = "core depth as a pass: cores close the tiles' masks"},
@@ -394,6 +394,8 @@ static void what_is_not_there_is_left_out(void **state)
         assert_true(is_left_out(plan, "certification") == !!(plan->features & FEATURE_SOLVER));
         assert_int_equal(is_left_out(plan, "billboards"), tiles);
         assert_int_equal(is_left_out(plan, "core depth as a pass"), tiles);
+        assert_int_equal(is_left_out(plan, "pixels to be cast as squares"),
+                         tiles && !(plan->features & FEATURE_SQUARES));
         assert_true(is_left_out(plan, "FBVH") == !(plan->features & (FEATURE_TREE | FEATURE_RAYS)));
         mns_plan_destroy(plan);
         mns_field_destroy(field);

@@ -1,5 +1,6 @@
 #include "list/passes.h"
 
+#include <math.h>
 #include <stddef.h>
 
 enum {
@@ -9,7 +10,8 @@ enum {
     UNIFORM_TWO = 0,
     UNIFORM_INNER = 2,
     UNIFORM_REGION = 1,
-    UNIFORM_TILE_GRID = 3
+    UNIFORM_TILE_GRID = 3,
+    UNIFORM_SQUARE_VIEW = 4
 };
 
 static void scissor(gl_device *device, const list_passes *p, list_region region)
@@ -270,6 +272,29 @@ static void bind_lists(list_passes *p, gl_device *device, const mns_plan *plan, 
     gl->BindTexture(GL_TEXTURE_2D, p->host_depth);
 }
 
+/* Runs the cast where something is listed; everything else is a miss, and certain. */
+static void draw_squares(list_passes *p, gl_device *device, const mns_plan *plan, GLuint program,
+                         list_region region)
+{
+    static const GLfloat miss[3][4] = {{INFINITY}, {0, 0, 0, 1}};
+    const GladGLContext *gl = &device->gl;
+    const GLsizei width = plan_square_round(region.width), height = plan_square_round(region.height);
+    for (int i = 0; i < (plan->features & FEATURE_COLORS ? 3 : 2); i++)
+        gl->ClearBufferfv(GL_COLOR, i, miss[i]);
+    gl->Viewport(region.x, region.y, width, height); /* what passes the frame's edges is cut off there */
+    gl->UseProgram(program);
+    gl->Uniform2f(UNIFORM_SQUARE_VIEW, (GLfloat)width, (GLfloat)height);
+    gl->BindVertexArray(p->vertex_array);
+    for (GLuint i = 1; i < 3; i++) gl->DisableVertexAttribArray(i);
+    gl->BindBuffer(GL_ARRAY_BUFFER, p->squares.id);
+    gl->EnableVertexAttribArray(0);
+    gl->VertexAttribPointer(0, 3, GL_UNSIGNED_SHORT, GL_FALSE, 4 * sizeof(uint16_t), NULL);
+    gl->VertexAttribDivisor(0, 0);
+    gl->DrawArrays(GL_POINTS, 0, (GLsizei)p->square_count);
+    gl->BindBuffer(GL_ARRAY_BUFFER, 0);
+    gl->BindVertexArray(0);
+}
+
 void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],
                GLuint target, list_region region, list_counts *counts)
 {
@@ -281,7 +306,10 @@ void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GL
     gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof none, &none);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view.id);
     bind_lists(p, device, plan, program[SHADER_CAST]);
-    draw_screen(p, device, program[SHADER_CAST]);
+    if (plan->features & FEATURE_SQUARES)
+        draw_squares(p, device, plan, program[SHADER_CAST], region);
+    else
+        draw_screen(p, device, program[SHADER_CAST]);
     read_counts(p, device, counts);
 }
 

@@ -20,6 +20,7 @@ typedef struct list_counts {
 typedef struct list_passes {
     gl_buffer balls, balls_low, cores, colors, nodes, counter, redo, view, view_wide, far_block;
     gl_buffer tile_heads;                           /* of the tiles' lists; these hold the balls themselves */
+    gl_buffer squares;                              /* of pixels to be cast */
     gl_buffer backwards;                            /* n - 1, ..., 1, 0 */
     GLuint heads, core_depth, host_depth;           /* textures */
     GLuint ball_texels, node_texels, head_texels;   /* buffer textures (TEXELS) */
@@ -27,6 +28,7 @@ typedef struct list_passes {
     GLuint vertex_array;
     int width, height;
     int tile_grid[4];                 /* as in glsl/tiles.glsl */
+    size_t square_count;              /* squares, four 16-bit numbers each */
     float view_now[VIEW_VECTORS * 4]; /* what `view` holds */
     size_t node_capacity;
     size_t redo_capacity; /* pixels of a region at most */

@@ -14,6 +14,7 @@ static const char *const feature_names[FEATURE_COUNT] = {
     [33] = "lights",     [34] = "point_lights", [35] = "shadows",    [36] = "soft_shadows",
     [37] = "mirror",     [38] = "fresnel",      [39] = "refraction", [40] = "absorption",
     [41] = "occlusion",  [42] = "environment",  [43] = "sky",        [44] = "rays",
+    [45] = "squares",
 };
 
 /* The numbers of the effects that are there. */

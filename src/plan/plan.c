@@ -152,6 +152,13 @@ static void plan_tiles(mns_plan *plan)
     if (plan->ball_floats == 3)
         plan->ball_floats = 4; /* a texel of four is read in less time than one of three */
     plan->features |= FEATURE_TILES;
+    const mns_limits *limits = &plan->limits;
+    if (limits->max_point_size >= SQUARE_MOST &&
+        limits->max_viewport[0] >= plan_square_round(plan->frame.width) &&
+        limits->max_viewport[1] >= plan_square_round(plan->frame.height))
+        plan->features |= FEATURE_SQUARES;
+    else
+        plan_leave_out(plan, "pixels to be cast as squares", "this driver's points are too small");
     plan_leave_out(plan, "billboards", binned);
     plan_leave_out(plan, "gather", binned);
     plan_leave_out(plan, "core depth as a pass", "cores close the tiles' masks");

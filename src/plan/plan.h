@@ -51,7 +51,8 @@
 #define FEATURE_ENVIRONMENT  (UINT64_C(1) << 42) /* a map in the place of the background */
 #define FEATURE_SKY          (UINT64_C(1) << 43) /* the built-in sky in its place */
 #define FEATURE_RAYS         (UINT64_C(1) << 44) /* some rays beyond the first are traced, on the GPU */
-enum { FEATURE_COUNT = 45 };
+#define FEATURE_SQUARES      (UINT64_C(1) << 45) /* only squares of pixels that hold listed tiles are cast */
+enum { FEATURE_COUNT = 46 };
 
 enum { PLAN_MOST = 16 }; /* passes; parts left out are at most PLAN_PARTS */
 enum { PLAN_PARTS = 40 };
@@ -217,5 +218,13 @@ bool plan_needs(const mns_plan *plan, plan_shader shader);
 enum { LIST_NODE = 16 };       /* bytes of a node of the per-pixel lists; of a tile's, a ball's record */
 enum { TILE_SHIFT_LEAST = 2 }; /* no tile is fewer than 1 << 2 pixels wide */
 enum { RESOLVE_GROUP = 8 };    /* invocations a group of the resolve pass */
+
+enum { SQUARE_SHIFT_MOST = 6, SQUARE_MOST = 1 << SQUARE_SHIFT_MOST }; /* side of a square to be cast */
+
+/* The sides of the largest squares that hold `pixels`, together. */
+static inline int plan_square_round(int pixels)
+{
+    return (pixels + SQUARE_MOST - 1) & ~(SQUARE_MOST - 1);
+}
 
 #endif

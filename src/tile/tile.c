@@ -311,8 +311,9 @@ mns_status tile_bins_make(tile_bins *bins, list_order *order, const mns_field *f
     place_bands(bins);
     if (bins->count >= work.most) return MNS_OK;
     if (!write_lists(bins, order->in_view)) return status_no_memory(error, "while binning the balls");
-    bins->fits = true;
-    return MNS_OK;
+    if (plan->features & FEATURE_SQUARES) status = tile_squares_make(bins, error);
+    bins->fits = !status;
+    return status;
 }
 
 bool tile_bins_serve(const tile_bins *bins, const mns_plan *plan, list_region region)
@@ -339,7 +340,7 @@ bool tile_bins_lengths(const tile_bins *bins, list_lengths *lengths)
 void tile_bins_free(tile_bins *bins)
 {
     free(bins->outline), free(bins->mask), free(bins->length), free(bins->head), free(bins->place),
-        free(bins->open);
+        free(bins->open), free(bins->square);
     for (int i = 0; i < bins->band_capacity; i++) free(bins->band[i].pair), free(bins->band[i].core);
     free(bins->band);
     *bins = (tile_bins){0};

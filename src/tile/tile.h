@@ -17,6 +17,11 @@ typedef struct tile_head {
     uint32_t first, past;
 } tile_head;
 
+/* A square of pixels to be cast: its lower left corner, from the region's, and its side. */
+typedef struct tile_square {
+    uint16_t x, y, side, spare;
+} tile_square;
+
 /* More entries have no place in what a pixel to resolve keeps (glsl/resolve_entry.glsl). */
 enum { TILE_ENTRIES_MOST = 1 << 30 };
 
@@ -61,6 +66,8 @@ typedef struct tile_bins {
     uint32_t *
         open; /* tiles with an open cell in the rows and columns before, a row and a column more than tiles */
     size_t tile_capacity;
+    tile_square *square; /* of tiles that have a list (plan SQUARES) */
+    size_t square_count, square_capacity;
     tile_band *band;
     int band_count, band_capacity;
 } tile_bins;
@@ -84,6 +91,8 @@ void tile_sieve(const tile_bins *bins, list_order *order, const mns_field *field
  */
 mns_status tile_bins_make(tile_bins *bins, list_order *order, const mns_field *field, const mns_plan *plan,
                           list_region region, mns_error *error);
+/* The squares that hold every tile with a list. Errors: MEMORY. */
+mns_status tile_squares_make(tile_bins *bins, mns_error *error);
 /* Whether the bins that were made last are also this plan's of that region, the order being the same. */
 bool tile_bins_serve(const tile_bins *bins, const mns_plan *plan, list_region region);
 /* Notes every pixel's list's length. False: out of memory. */
