@@ -184,10 +184,10 @@ static void a_sequence_keeps_its_beat(void **state)
     (void)state;
     timeline t;
     timeline_begin(&t, 10, 0);
-    assert_int_equal(timeline_next(&t, 0, 0), -1);
+    assert_int_equal(timeline_next(&t, t.shown, 0, 0), -1);
     timeline_play(&t, 1000);
     double step = 1000 / 24.0;
-    assert_int_equal(timeline_next(&t, 1000, 0), 1);
+    assert_int_equal(timeline_next(&t, t.shown, 1000, 0), 1);
     assert_float_equal(timeline_due_ms(&t, 1), 1000 + step, 1e-9);
     timeline_show(&t, 1, 1000 + step + 3);
     assert_float_equal(timeline_due_ms(&t, 2), 1000 + 2 * step, 1e-9);
@@ -201,19 +201,47 @@ static void what_comes_too_late_is_dropped_and_told(void **state)
     timeline_begin(&t, 10, 7);
     timeline_play(&t, 0);
     double step = 1000 / 24.0;
-    assert_int_equal(timeline_next(&t, 0, 4.5 * step), 1); /* 8, 9 and 0 would be over */
+    assert_int_equal(timeline_next(&t, t.shown, 0, 4.5 * step), 1); /* 8, 9 and 0 would be over */
     timeline_show(&t, 1, 4 * step);
     assert_int_equal(t.dropped, 3);
-    assert_int_equal(timeline_next(&t, 4 * step, 1e9), 0); /* never more than once around */
+    assert_int_equal(timeline_next(&t, t.shown, 4 * step, 1e9), 0); /* never more than once around */
     t.loops = false;
-    assert_int_equal(timeline_next(&t, 4 * step, 1e9), 9); /* nor past the end */
+    assert_int_equal(timeline_next(&t, t.shown, 4 * step, 1e9), 9); /* nor past the end */
     timeline_show(&t, 9, 5 * step);
     assert_false(t.playing);
-    timeline_play(&t, 0); /* from the beginning again */
-    assert_int_equal(timeline_next(&t, 0, 0), 1);
+    timeline_play(&t, 0); /* from the beginning again, which comes first */
+    assert_int_equal(timeline_next(&t, t.shown, 0, 0), 0);
+    timeline_show(&t, 0, step);
+    assert_true(t.playing);
+    assert_int_equal(timeline_next(&t, t.shown, step, 0), 1);
     timeline_speed(&t, 1000, 0);
     assert_float_equal(t.speed, 64, 0);
     assert_int_equal(timeline_clamp(&t, 12), 9);
+}
+
+/* While one is shown and the next one waits, the one after that is read. */
+static void two_frames_are_on_their_way(void **state)
+{
+    (void)state;
+    timeline t;
+    const double step = 1000 / 24.0;
+    timeline_begin(&t, 4, 0);
+    timeline_play(&t, 0);
+    assert_int_equal(timeline_next(&t, 1, 0, 0), 2);
+    assert_int_equal(timeline_next(&t, 1, 0, 3.5 * step), 3);
+    assert_int_equal(timeline_next(&t, 3, 0, 0), 0); /* around */
+    assert_int_equal(timeline_next(&t, 3, 0, 1e9), 2);
+    timeline_loop(&t, false);
+    assert_int_equal(timeline_next(&t, 2, 0, 0), 3);
+    assert_int_equal(timeline_next(&t, 3, 0, 0), -1); /* the last one waits already */
+    timeline_show(&t, 3, step);
+    timeline_loop(&t, true);
+    timeline_play(&t, 0);
+    timeline_loop(&t, false); /* at its end: that is one */
+    assert_false(t.playing);
+    timeline_begin(&t, 2, 1);
+    timeline_play(&t, 0);
+    assert_int_equal(timeline_next(&t, 0, 0, 0), 1); /* the one that is shown comes again */
 }
 
 /* ---- Frames on a thread ---- */
@@ -233,7 +261,7 @@ static void frames_are_read_on_a_thread(void **state)
     player p;
     assert_int_equal(mns_input_open(&name, 1, NULL, &input, NULL), MNS_OK);
     sem_init(&woken, 0, 0);
-    assert_int_equal(player_open(&p, input, wake, NULL), MNS_OK);
+    assert_int_equal(player_open(&p, input, wake, 1, NULL), MNS_OK);
     for (long frame = 0; frame < 7; frame++) {
         mns_field *field = NULL;
         mns_field_info info;
@@ -324,6 +352,7 @@ int main(void)
         cmocka_unit_test(pace_leaves_pixels_that_cost_little),
         cmocka_unit_test(a_sequence_keeps_its_beat),
         cmocka_unit_test(what_comes_too_late_is_dropped_and_told),
+        cmocka_unit_test(two_frames_are_on_their_way),
         cmocka_unit_test(frames_are_read_on_a_thread),
         cmocka_unit_test(a_script_gives_its_lines),
         cmocka_unit_test(options_change_as_words),

@@ -39,6 +39,7 @@ typedef struct app_options {
     window_context window_context; /* view */
     const char *script, *glsl;     /* view; NULL: none */
     bool no_panel;                 /* view */
+    double patience;               /* view, seconds; 0: the default */
     bool range_is_scenes;          /* look.range comes from the scene, and holds for its color_by only */
     bool help;                     /* was asked for and printed: nothing more to do */
     mns_scene *scene;              /* of a .json argument */

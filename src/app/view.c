@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a window is told, now and when it could last be drawn. */
+/* What a window is told: now, before the last change, and when it could last be drawn. */
 typedef struct view_state {
     view_words words;
     app_options *o; /* stays where it is: its look points into it */
@@ -17,7 +17,7 @@ typedef struct view_state {
 
 typedef struct view_job {
     option_table table;
-    view_state now, kept;
+    view_state now, last, kept;
 } view_job;
 
 /* ---- The words and what they mean ---- */
@@ -55,7 +55,9 @@ static mns_status state_read(const option_table *table, view_words words, view_s
                                         .look = o->look,
                                         .draw = o->draw,
                                         .frame = o->frames.given ? o->frames.first : 0,
-                                        .no_cache = o->no_cache};
+                                        .no_cache = o->no_cache,
+                                        .threads = o->threads,
+                                        .patience_ms = 1000 * (o->patience > 0 ? o->patience : 15)};
     return MNS_OK;
 }
 
@@ -76,7 +78,8 @@ static mns_status become(view_job *job, view_words words, bool whole, mns_error 
     }
     mns_status status = state_read(&job->table, words, &next, error);
     if (status) return status;
-    state_free(&job->now);
+    state_free(&job->last);
+    job->last = job->now;
     job->now = next;
     return MNS_OK;
 }
@@ -91,8 +94,14 @@ static const window_settings *host_settings(void *context)
 
 static mns_status host_set(void *context, const char *name, const char *value, mns_error *error)
 {
+    static const char *const of_start[] = {"threads",  "no-cache", "context", "script",
+                                           "no-panel", "glsl",     NULL};
     view_job *job = context;
     view_words words;
+    for (int i = 0; of_start[i]; i++)
+        if (strcmp(name, of_start[i]) == 0)
+            return app_fail(error, MNS_ERROR_USAGE, "--%s: it counts when the window opens, and no later",
+                            name);
     mns_status status = copy(job, &words, error);
     if (status) return status;
     bool whole = view_words_set(&words, &job->table, name, value); /* may move what `words` holds */
@@ -110,6 +119,15 @@ static mns_status host_open(void *context, const char *const *names, size_t coun
     bool whole = view_words_inputs(&words, &job->table, names, count);
     for (int i = 0; of_input[i] && whole; i++) whole = view_words_set(&words, &job->table, of_input[i], NULL);
     return become(job, words, whole, error);
+}
+
+static void host_back(void *context)
+{
+    view_job *job = context;
+    if (!job->last.o) return;
+    state_free(&job->now);
+    job->now = job->last;
+    memset(&job->last, 0, sizeof job->last);
 }
 
 static void host_keep(void *context)
@@ -146,8 +164,9 @@ static void host_fix_look(void *context, const mns_field *first, mns_look *look)
 
 static char *host_command(void *context, const mns_view *view, long frame, mns_method method)
 {
-    static const char *const without[] = {"eye",    "look-at", "up",     "fov",  "size",     "frame",
-                                          "method", "context", "script", "glsl", "no-panel", NULL};
+    static const char *const without[] = {"eye",      "look-at",  "up",      "fov",    "size",
+                                          "frame",    "method",   "context", "script", "glsl",
+                                          "no-panel", "patience", NULL};
     const view_job *job = context;
     const double *e = view->eye, *t = view->look_at, *u = view->up;
     char *own = view_words_shell(&job->now.words, &job->table, without), *text = NULL;
@@ -190,8 +209,8 @@ static mns_status run(view_job *job, mns_error *error)
     const app_options *o = job->now.o;
     /* These words go with the first change of an option. */
     char *script = o->script ? strdup(o->script) : NULL, *glsl = o->glsl ? strdup(o->glsl) : NULL;
-    const window_desc desc = {.host = {job, host_settings, host_set, host_open, host_keep, host_undo,
-                                       host_fix_look, host_command, host_tell},
+    const window_desc desc = {.host = {job, host_settings, host_set, host_open, host_back, host_keep,
+                                       host_undo, host_fix_look, host_command, host_tell},
                               .context = o->window_context,
                               .script = script,
                               .glsl = glsl,
@@ -222,6 +241,7 @@ int app_view(int argc, char **argv)
     else if (!status)
         status = run(&job, &error);
     state_free(&job.now);
+    state_free(&job.last);
     state_free(&job.kept);
     free((option_row *)(uintptr_t)job.table.rows);
     return status ? app_report(&error) : APP_DONE;

@@ -41,6 +41,11 @@ static mns_status option_no_panel(app_options *o, const char *name, const char *
     return MNS_OK;
 }
 
+static mns_status option_patience(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_positive(name, text, &o->patience, error);
+}
+
 static const option_row OWN[] = {
     {NULL, 0, NULL, "Window:", NULL},
     {"no-panel", 0, NULL, "begin without the panel (Tab shows it)", option_no_panel},
@@ -49,6 +54,8 @@ static const option_row OWN[] = {
      option_context},
     {"script", 0, "FILE", "replay actions, a line each, as keys and mouse would do them; see below",
      option_script},
+    {"patience", 0, "SECONDS",
+     "what would take longer stays coarse until Return asks for it whole (default 15)", option_patience},
     {"glsl", 0, "DIR", "a folder of shaders, which F5 reads again: glsl/ of the sources", option_glsl},
 };
 

@@ -2,6 +2,7 @@
 
 #include "base/status.h"
 
+#include <omp.h>
 #include <string.h>
 
 static bool same(const worker_job *job, const mns_field *field, const fbvh_options *options)
@@ -14,6 +15,7 @@ static void *build_ahead(void *argument)
 {
     trace_worker *worker = argument;
     worker_job *job = &worker->ahead;
+    omp_set_num_threads(worker->threads);
     job->status = fbvh_build(worker->builder, job->field, &job->options, &job->tree, &job->error);
     atomic_store(&worker->done, true);
     return NULL;
@@ -43,6 +45,7 @@ mns_status trace_worker_begin(trace_worker *worker, const mns_field *field, cons
     mns_status status = make_builder(worker, error);
     if (status) return status;
     worker->ahead = (worker_job){.field = field, .stamp = field->stamp, .options = *options};
+    worker->threads = omp_get_max_threads();
     atomic_store(&worker->done, false);
     if (pthread_create(&worker->thread, NULL, build_ahead, worker) != 0)
         return status_no_memory(error, "while starting to build a tree ahead");

@@ -23,6 +23,7 @@ typedef struct trace_worker {
     fbvh_builder *builder;
     pthread_t thread;
     bool running;
+    int threads;      /* that it may use: as many as who began it */
     atomic_bool done; /* what is running has come to its end: it can be had without waiting */
     worker_job ahead; /* what the thread builds */
     worker_job ready; /* what it has built, and nobody has taken yet */

@@ -52,7 +52,7 @@ mns_status action_fit(viewer *v, const words *w, mns_error *error)
 {
     (void)w, (void)error;
     mns_field_info info;
-    mns_field_get_info(v->field, &info);
+    mns_field_get_info(v->now->field, &info);
     camera_fit(&v->camera, info.effective_lo, info.effective_hi, (double)v->width / v->height);
     return moved(v);
 }
@@ -116,7 +116,7 @@ mns_status action_move(viewer *v, const words *w, mns_error *error)
 mns_status action_scroll(viewer *v, const words *w, mns_error *error)
 {
     (void)error;
-    events_scroll(v, w->number[0]);
+    events_scroll(v, 0, w->number[0]);
     return MNS_OK;
 }
 

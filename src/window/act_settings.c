@@ -16,7 +16,11 @@ static mns_status set_option(viewer *v, const char *name, const char *value, mns
     if (strcmp(name, "method") == 0 && v->settings->draw.solver)
         status = host->set(host->context, "solver", NULL, error);
     if (strcmp(name, "color-by") == 0 && value && strcmp(value, "none") == 0) value = NULL;
-    return status ? status : settings_change(v, name, value, error);
+    if (!status) status = settings_change(v, name, value, error);
+    if (status) return status;
+    if (strcmp(name, "frame") == 0) frames_go(v, v->settings->frame);
+    if (strcmp(name, "size") == 0) viewer_set_size(v, v->settings->view.width, v->settings->view.height);
+    return MNS_OK;
 }
 
 mns_status action_set(viewer *v, const words *w, mns_error *error)
@@ -33,7 +37,7 @@ mns_status action_set(viewer *v, const words *w, mns_error *error)
 
 mns_status action_unset(viewer *v, const words *w, mns_error *error)
 {
-    return settings_change(v, w->text, NULL, error);
+    return set_option(v, w->text, NULL, error);
 }
 
 mns_status action_next(viewer *v, const words *w, mns_error *error)
@@ -50,9 +54,7 @@ mns_status action_next(viewer *v, const words *w, mns_error *error)
 
 mns_status action_open_input(viewer *v, const words *w, mns_error *error)
 {
-    mns_status status = settings_open(v, &w->text, 1, error);
-    if (!status) viewer_tell(v, "opened %.400s", w->text);
-    return status;
+    return settings_open(v, &w->text, 1, error);
 }
 
 /* ---- Comparing ---- */
@@ -73,7 +75,7 @@ mns_status action_compare(viewer *v, const words *w, mns_error *error)
 mns_status action_other(viewer *v, const words *w, mns_error *error)
 {
     mns_status status = divider_other(v, w->text, error);
-    if (!status && v->compare != COMPARE_OFF) drawing_change(v, false);
+    if (!status && v->compare != COMPARE_OFF) drawing_renew(v);
     return status;
 }
 
@@ -103,7 +105,8 @@ mns_status action_check_it(viewer *v, const words *w, mns_error *error)
     for (int i = 0; i < drawing_sides(v) && !status; i++)
         status = mns_frame_read(v->side[i].frame, &image[i], error);
     mns_view view = drawing_view(v);
-    if (!status) return check_begin(&v->check, v->field, &view, image, viewer_wake, error);
+    if (!status)
+        return check_begin(&v->check, v->now->field, &view, image, viewer_wake, v->settings->threads, error);
     for (int i = 0; i < SIDES; i++) mns_image_destroy(image[i]);
     return status;
 }

@@ -11,46 +11,47 @@
 mns_status action_play(viewer *v, const words *w, mns_error *error)
 {
     (void)w, (void)error;
-    subject_play(v, !v->timeline.playing);
+    frames_play(v, !v->now->timeline.playing);
     return MNS_OK;
 }
 
 mns_status action_pause_it(viewer *v, const words *w, mns_error *error)
 {
     (void)w, (void)error;
-    subject_play(v, false);
+    frames_play(v, false);
     return MNS_OK;
 }
 
 mns_status action_step(viewer *v, const words *w, mns_error *error)
 {
     (void)error;
-    long from = v->wanted >= 0 ? v->wanted : v->timeline.shown;
-    subject_go(v, from + (long)w->number[0]);
+    long from = v->now->wanted >= 0 ? v->now->wanted : v->now->timeline.shown;
+    frames_go(v, from + (long)w->number[0]);
     return MNS_OK;
 }
 
 mns_status action_frame(viewer *v, const words *w, mns_error *error)
 {
     (void)error;
-    subject_go(v, (long)w->number[0]);
+    frames_go(v, (long)w->number[0]);
     return MNS_OK;
 }
 
 mns_status action_speed(viewer *v, const words *w, mns_error *error)
 {
     (void)error;
-    timeline_speed(&v->timeline, v->timeline.speed * w->number[0], clock_ms());
-    viewer_tell(v, "speed %g: %g frames a second", v->timeline.speed, v->timeline.speed * v->timeline.rate);
+    timeline_speed(&v->now->timeline, v->now->timeline.speed * w->number[0], clock_ms());
+    viewer_tell(v, "speed %g: %g frames a second", v->now->timeline.speed,
+                v->now->timeline.speed * v->now->timeline.rate);
     return MNS_OK;
 }
 
 mns_status action_loop(viewer *v, const words *w, mns_error *error)
 {
     (void)w, (void)error;
-    v->timeline.loops = !v->timeline.loops;
-    viewer_tell(v,
-                v->timeline.loops ? "the sequence begins again at its end" : "the sequence stops at its end");
+    timeline_loop(&v->now->timeline, !v->now->timeline.loops);
+    viewer_tell(v, v->now->timeline.loops ? "the sequence begins again at its end"
+                                          : "the sequence stops at its end");
     return MNS_OK;
 }
 
@@ -62,8 +63,7 @@ mns_status action_size(viewer *v, const words *w, mns_error *error)
     if (!(width > 0 && height > 0 && width <= 16384 && height <= 16384))
         return status_fail(error, MNS_ERROR_USAGE, "size %.40s: expected two numbers from 1 to 16384",
                            w->text);
-    glfwSetWindowSize(v->window, (int)(width / v->dots), (int)(height / v->dots));
-    v->script.until_ms = clock_ms() + 300; /* the window system takes its time */
+    viewer_set_size(v, width, height);
     return MNS_OK;
 }
 
@@ -105,7 +105,7 @@ mns_status action_reload(viewer *v, const words *w, mns_error *error)
         status = mns_renderer_read_shaders(v->side[i].renderer, v->desc->glsl, error);
     if (status) return status;
     viewer_tell(v, "read the shaders of %.200s again", v->desc->glsl);
-    drawing_change(v, false);
+    drawing_renew(v);
     return MNS_OK;
 }
 
@@ -159,8 +159,12 @@ mns_status action_sleep_ms(viewer *v, const words *w, mns_error *error)
 mns_status action_tell(viewer *v, const words *w, mns_error *error)
 {
     (void)error;
-    viewer_tell(v, "%.80s: drew %zu, showed %zu, frame %ld, dropped %ld, %dx%d, last in %.1f ms %s", w->text,
-                v->draws, v->shows, v->timeline.shown, v->timeline.dropped, v->width, v->height,
-                v->side[0].ms, v->hover.is_on ? v->hover.text : "");
+    const mns_stats *drawn = mns_frame_stats(v->side[0].frame);
+    viewer_tell(v,
+                "%.80s: drew %zu, showed %zu, frame %ld, dropped %ld, %dx%d of %dx%d, divider at %.3f, "
+                "last in %.1f ms %s",
+                w->text, v->draws, v->shows, v->now->timeline.shown, v->now->timeline.dropped, drawn->width,
+                drawn->height, v->width, v->height, v->place, v->side[0].ms,
+                v->hover.is_on ? v->hover.text : "");
     return MNS_OK;
 }

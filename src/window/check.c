@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/status.h"
 
+#include <omp.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -17,6 +18,7 @@ static void tell_rows(void *context, int done, int rows)
 static void *work(void *context)
 {
     check *c = context;
+    if (c->threads) omp_set_num_threads(c->threads);
     const truth_desc desc = {.field = c->field,
                              .view = &c->view,
                              .use_cache = true,
@@ -46,12 +48,13 @@ static void join(check *c)
 }
 
 mns_status check_begin(check *c, const mns_field *field, const mns_view *view, mns_image *const image[2],
-                       void (*wake)(void), mns_error *error)
+                       void (*wake)(void), int threads, mns_error *error)
 {
     check_stop(c);
     c->field = field;
     c->view = *view;
     c->wake = wake;
+    c->threads = threads;
     atomic_store(&c->state, CHECK_RUNS);
     for (int i = 0; i < 2; i++) c->image[i] = image[i];
     c->running = pthread_create(&c->thread, NULL, work, c) == 0;

@@ -20,15 +20,16 @@ typedef struct check {
     mns_view view;
     mns_image *image[2]; /* the sides' pictures; the second may be NULL */
     void (*wake)(void);
+    int threads; /* it may use; 0: OpenMP's own choice */
     /* what came of it */
     metrics result[2];
     double ms;
     mns_error error;
 } check;
 
-/* Begins; takes the images over. The field must stay until check_stop. Errors: MEMORY. */
+/* Begins, on so many threads; takes the images over. The field must stay until check_stop. Errors: MEMORY. */
 mns_status check_begin(check *c, const mns_field *field, const mns_view *view, mns_image *const image[2],
-                       void (*wake)(void), mns_error *error);
+                       void (*wake)(void), int threads, mns_error *error);
 /* Ends the thread, and forgets what it found; zeroed is nothing. */
 void check_stop(check *c);
 /* What was found is of another picture: forgets it, or sees to it that it is not found. Does not wait. */

@@ -40,7 +40,7 @@ static void solvers(const viewer *v, choice *c)
 static void kernels(const viewer *v, choice *c)
 {
     mns_field_info info;
-    mns_field_get_info(v->field, &info);
+    mns_field_get_info(v->now->field, &info);
     for (int k = MNS_KERNEL_DEFAULT + 1; k < MNS_KERNEL_COUNT; k++) {
         if ((mns_kernel)k == info.kernel) c->now = c->count;
         c->names[c->count++] = mns_kernel_name((mns_kernel)k);
@@ -70,7 +70,7 @@ static void columns(const viewer *v, choice *c)
     mns_column_info column;
     c->names[c->count++] = "none";
     if (!now) c->now = 0;
-    for (size_t i = 0; c->count < CHOICE_NAMES && mns_field_get_column(v->field, i, &column); i++) {
+    for (size_t i = 0; c->count < CHOICE_NAMES && mns_field_get_column(v->now->field, i, &column); i++) {
         if (now && strcmp(now, column.name) == 0) c->now = c->count;
         c->names[c->count++] = column.name;
     }
@@ -108,7 +108,7 @@ static const struct {
 
 bool choice_at(const viewer *v, int index, choice *c)
 {
-    if (index < 0 || index >= (int)(sizeof ROWS / sizeof *ROWS) || !v->field) return false;
+    if (index < 0 || index >= (int)(sizeof ROWS / sizeof *ROWS)) return false;
     *c = (choice){.label = ROWS[index].label, .action = ROWS[index].action, .now = -1};
     ROWS[index].fill(v, c);
     return true;

@@ -37,7 +37,7 @@ void divider_mode(viewer *v, compare_mode mode)
     v->compare = mode;
     v->stale = true;
     v->flicker_b = false;
-    if (mode != COMPARE_OFF && !had) drawing_change(v, false);
+    if (mode != COMPARE_OFF && !had) drawing_renew(v);
     if (mode != COMPARE_OFF) return;
     v->difference.is_known = false;
     settle_other(v);

@@ -7,9 +7,6 @@
 
 /* How long a camera rests before the picture is drawn whole. */
 static const double REST_MS = 150;
-/* What would take longer than this when whole is drawn so only when it is asked for: nothing else happens
- * meanwhile. */
-static const double LONG_MS = 15000;
 
 mns_status drawing_begin(viewer *v, mns_error *error)
 {
@@ -56,6 +53,7 @@ mns_view drawing_view(const viewer *v)
 void drawing_change(viewer *v, bool moves)
 {
     v->stage = STAGE_CHANGED;
+    v->failed = false;
     v->is_coarse = v->asked_twice = false;
     v->difference.is_known = false;
     v->hover.is_known = false;
@@ -63,45 +61,71 @@ void drawing_change(viewer *v, bool moves)
     if (moves) v->moved_ms = clock_ms();
 }
 
+void drawing_renew(viewer *v)
+{
+    drawing_change(v, false);
+    v->is_new = true;
+}
+
 /* ---- One bit of it ---- */
+
+/* Into a frame of its own where that costs nothing, or where it may fail: the picture before stays until this
+ * one is there. */
+static mns_status draw_frame(viewer *v, side *s, const mns_view *view, const mns_options *options,
+                             mns_error *error)
+{
+    const mns_stats *last = mns_frame_stats(s->frame);
+    bool other = v->trial.is_on || last->width != view->width || last->height != view->height;
+    if (!s->is_drawn || options->sample_first || !other)
+        return mns_renderer_draw(s->renderer, v->now->field, view, &v->look, options, s->frame, error);
+    mns_frame *fresh;
+    mns_status status = mns_frame_create(s->renderer, &fresh, error);
+    if (status) return status;
+    status = mns_renderer_draw(s->renderer, v->now->field, view, &v->look, options, fresh, error);
+    mns_frame_destroy(status ? fresh : s->frame);
+    if (!status) s->frame = fresh;
+    return status;
+}
 
 static mns_status draw_side(viewer *v, int i, const mns_view *view, const mns_options *options,
                             mns_error *error)
 {
     side *s = &v->side[i];
     double start = clock_ms();
-    mns_status status = mns_renderer_draw(s->renderer, v->field, view, &v->look, options, s->frame, error);
+    mns_status status = draw_frame(v, s, view, options, error);
     v->screen.gl.Finish();
+    if (status) { /* the second side's picture would be of another view than the first's */
+        s->is_drawn = s->is_drawn && i == 0 && mns_frame_plan(s->frame);
+        return status;
+    }
     s->ms = clock_ms() - start;
-    s->is_drawn = !status;
+    s->is_drawn = true;
     s->samples = options->samples;
     s->sum = options->sample_count ? options->sample_first + options->sample_count : options->samples;
-    return status;
+    return MNS_OK;
 }
 
-/* All sides: samples from `first` on, `count` of them, at a part of the window's size. */
-static mns_status draw(viewer *v, double scale, int samples, int first, mns_error *error)
+/* All sides: samples from `first` on, at a part of the window's size. */
+static mns_status draw(viewer *v, int step, int samples, int first, mns_error *error)
 {
     mns_view view = drawing_view(v);
-    if (scale < 1) {
-        view.width = pace_size(&v->pace, v->width);
-        view.height = pace_size(&v->pace, v->height);
-    }
+    view.width = pace_size_at(step, v->width);
+    view.height = pace_size_at(step, v->height);
     mns_status status = MNS_OK;
     for (int i = 0; i < drawing_sides(v) && !status; i++) {
         mns_options options = drawing_options(v, i);
         options.samples = samples;
         options.sample_first = first;
         options.sample_count = samples > 1;
+        options.measure = options.measure || v->asked_twice;
         status = draw_side(v, i, &view, &options, error);
     }
     if (status) subject_settle(v); /* a side may not have come to take its tree */
+    v->failed = status != MNS_OK;
+    v->is_new = false;
     v->stale = true;
     v->draws++;
-    if (!status && v->on_trial) {
-        v->on_trial = false;
-        v->desc->host.keep(v->desc->host.context);
-    }
+    if (!status) settings_kept(v);
     return status;
 }
 
@@ -117,14 +141,14 @@ static double drawn_ms(const viewer *v)
 static void finish(viewer *v)
 {
     v->stage = STAGE_DONE;
-    if (v->compare != COMPARE_OFF) divider_count(v);
+    if (v->compare != COMPARE_OFF && !v->failed) divider_count(v);
 }
 
 /* One sample of the whole picture; the first of them is the pixels' centre. */
 static mns_status draw_sample(viewer *v, int first, mns_error *error)
 {
     int samples = drawing_options(v, 0).samples;
-    mns_status status = draw(v, 1, samples, first, error);
+    mns_status status = draw(v, PACE_STEPS, samples, first, error);
     if (!first && v->pace.step == PACE_STEPS)
         pace_drawn(&v->pace, drawn_ms(v)); /* moving, it would take as long */
     if (status || first + 1 >= samples)
@@ -134,41 +158,62 @@ static mns_status draw_sample(viewer *v, int first, mns_error *error)
     return status;
 }
 
+/* At a part of the window's size. */
+static mns_status draw_coarse(viewer *v, int step, mns_error *error)
+{
+    mns_status status = draw(v, step, 1, 0, error);
+    v->stage = status ? STAGE_DONE : STAGE_COARSE;
+    v->coarse_step = step;
+    return status;
+}
+
 static mns_status draw_moving(viewer *v, mns_error *error)
 {
-    double scale = pace_scale(&v->pace);
-    mns_status status = draw(v, scale, 1, 0, error);
-    if (status)
-        v->stage = STAGE_DONE;
-    else
-        v->stage = STAGE_COARSE;
+    mns_status status = draw_coarse(v, v->pace.step, error);
     pace_drawn(&v->pace, drawn_ms(v));
     v->moving_ms[1] = v->moving_ms[0];
     v->moving_ms[0] = drawn_ms(v);
     return status;
 }
 
+/* What of the last draw hangs on no pixel, as far as its phases were measured. */
+static double fixed_ms(const viewer *v)
+{
+    static const mns_phase fixed[] = {MNS_PHASE_SORT, MNS_PHASE_BIN, MNS_PHASE_UPLOAD, MNS_PHASE_BUILD};
+    double ms = 0;
+    for (int i = 0; i < drawing_sides(v); i++) {
+        const mns_stats *s = mns_frame_stats(v->side[i].frame);
+        for (size_t k = 0; s->timed && k < sizeof fixed / sizeof *fixed; k++) ms += s->ms[fixed[k]];
+    }
+    return ms;
+}
+
 /* What a coarse picture says of the whole one, milliseconds. */
 static double whole_ms(const viewer *v)
 {
     const mns_stats *s = mns_frame_stats(v->side[0].frame);
-    double part = (double)s->width * s->height / ((double)v->width * v->height);
-    return part < 1 ? (drawn_ms(v) - v->show_ms) / part : 0;
+    double part = (double)s->width * s->height / ((double)v->width * v->height), fixed = fixed_ms(v);
+    return part < 1 ? fixed + (drawn_ms(v) - v->show_ms - fixed) / part : 0;
 }
 
-/* The first picture by other settings may have waited for a compiler, so that what it says is asked once
- * more. */
+/* What takes long is drawn whole only when it is asked for: nothing else happens meanwhile. The first picture
+ * by other settings may have waited for a compiler or a tree, so that what it says is asked
+ * once more, by its phases. */
 static mns_status draw_whole(viewer *v, mns_error *error)
 {
-    double ms = v->patient || !v->side[0].is_drawn ? 0 : whole_ms(v);
-    if (ms <= LONG_MS) return draw_sample(v, 0, error);
+    double ms = v->patient ? 0 : whole_ms(v);
+    if (v->asked_twice) pace_expect(&v->pace, ms, fixed_ms(v));
+    if (ms <= v->settings->patience_ms) {
+        v->asked_twice = false;
+        return draw_sample(v, 0, error);
+    }
     if (!v->asked_twice) {
         v->asked_twice = true;
-        return draw_moving(v, error);
+        return draw_coarse(v, v->coarse_step, error);
     }
     v->stage = STAGE_DONE;
     v->is_coarse = true;
-    viewer_tell(v, "the whole picture would take some %.0f s: Return draws it", ms / 1000);
+    viewer_tell(v, "the whole picture would take some %.3g s: Return draws it", ms / 1000);
     return MNS_OK;
 }
 
@@ -177,8 +222,10 @@ static mns_status step(viewer *v, bool moving, mns_error *error)
     switch (v->stage) {
     case STAGE_DONE:
         return MNS_OK;
-    case STAGE_CHANGED: /* by other settings: what they cost is not known yet */
-        return moving || (v->on_trial && !v->patient) ? draw_moving(v, error) : draw_sample(v, 0, error);
+    case STAGE_CHANGED:
+        if (v->is_new && !v->patient)
+            return draw_coarse(v, PACE_LEAST, error); /* what it costs is not known */
+        return moving ? draw_moving(v, error) : draw_sample(v, 0, error);
     case STAGE_COARSE:
         return moving ? MNS_OK : draw_whole(v, error);
     case STAGE_SUMMED:
@@ -190,9 +237,9 @@ static mns_status step(viewer *v, bool moving, mns_error *error)
 mns_status drawing_step(viewer *v, double *again_ms, mns_error *error)
 {
     double rest = v->moved_ms + REST_MS - clock_ms();
-    bool waits = v->held || v->timeline.playing, moving = waits || rest > 0;
+    bool waits = v->held || v->now->timeline.playing, moving = waits || rest > 0;
     *again_ms = INFINITY;
-    if (!v->field) return MNS_OK;
+    if (!v->now) return MNS_OK;
     mns_status status = step(v, moving, error);
     if (v->stage != STAGE_DONE && !(moving && waits)) *again_ms = moving ? rest : 0;
     return status;
@@ -201,11 +248,15 @@ mns_status drawing_step(viewer *v, double *again_ms, mns_error *error)
 mns_status drawing_finish(viewer *v, mns_error *error)
 {
     mns_status status = MNS_OK;
+    if (v->failed) v->stage = STAGE_CHANGED; /* it fails again, and is told */
     if (v->is_coarse) v->stage = STAGE_COARSE;
     v->is_coarse = false;
     v->patient = true;
     while (v->stage != STAGE_DONE && !status) status = step(v, false, error);
     v->patient = false;
+    if (status) settings_refused(v);
+    /* The action that wanted it makes sense; what was to be drawn does not. */
+    if (status == MNS_ERROR_USAGE) status = error->status = MNS_ERROR_UNSUPPORTED;
     return status;
 }
 
@@ -252,7 +303,7 @@ void drawing_show(viewer *v)
 bool drawing_point(viewer *v, double x, double y, vec3 *point)
 {
     const side *s = &v->side[0];
-    if (!s->is_drawn) return false;
+    if (!s->is_drawn || v->failed) return false;
     const mns_stats *stats = mns_frame_stats(s->frame);
     double t =
         screen_distance(&v->screen, s->frame, stats->width, stats->height,

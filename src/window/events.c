@@ -82,10 +82,20 @@ void events_move(viewer *v, double x, double y)
     drawing_change(v, true);
 }
 
+/* Two fingers on a trackpad go across as well: a step is a twentieth of the frame's height. */
+static void scroll_across(viewer *v, double by)
+{
+    if (by == 0) return;
+    camera_pan(&v->camera, -0.05 * by, 0);
+    drawing_change(v, true);
+}
+
 /* Towards the surface under the cursor; beside it, towards the plane through the target. */
-void events_scroll(viewer *v, double by)
+void events_scroll(viewer *v, double across, double by)
 {
     vec3 towards;
+    scroll_across(v, across);
+    if (by == 0) return;
     if (!drawing_point(v, v->x, v->y, &towards)) {
         vec3 right, up, forward;
         double direction[3];
@@ -100,9 +110,15 @@ void events_scroll(viewer *v, double by)
     drawing_change(v, true);
 }
 
-void events_key(viewer *v, int key, int mods)
+void events_key(viewer *v, int key, int mods, bool repeats)
 {
     const key_row *row = key_of(key, mods);
+    if (row && (row->repeats || !repeats)) action_do(v, row->action);
+}
+
+void events_type(viewer *v, unsigned character)
+{
+    const key_row *row = key_typed(character);
     if (row) action_do(v, row->action);
 }
 
@@ -147,8 +163,8 @@ static void tell_columns(const viewer *v, size_t ball, char *text, size_t size)
 {
     mns_column_info column;
     size_t used = 0;
-    for (size_t i = 0; i < 8 && mns_field_get_column(v->field, i, &column) && used < size; i++) {
-        double value = mns_field_value(v->field, i, ball);
+    for (size_t i = 0; i < 8 && mns_field_get_column(v->now->field, i, &column) && used < size; i++) {
+        double value = mns_field_value(v->now->field, i, ball);
         bool labelled = column.is_label && value >= 0 && value < (double)column.label_count;
         used += (size_t)(labelled ? snprintf(text + used, size - used, ", %.24s %.24s", column.name,
                                              column.labels[(size_t)value])

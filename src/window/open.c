@@ -1,4 +1,5 @@
 /* The window and its context: from the newest OpenGL down to 4.3, or one line that says what was found. */
+#include "base/clock.h"
 #include "base/status.h"
 #include "window/viewer.h"
 
@@ -45,6 +46,21 @@ static mns_status too_old(viewer *v, const char *reason, mns_error *error)
         found, reason);
 }
 
+void viewer_measure(viewer *v)
+{
+    int units, pixels;
+    glfwGetFramebufferSize(v->window, &pixels, NULL);
+    glfwGetWindowSize(v->window, &units, NULL);
+    if (units > 0 && pixels > 0) v->dots = (double)pixels / units;
+}
+
+void viewer_set_size(viewer *v, int width, int height)
+{
+    width = width ? width : 1024, height = height ? height : 768;
+    glfwSetWindowSize(v->window, (int)(width / v->dots), (int)(height / v->dots));
+    v->script.until_ms = clock_ms() + 300; /* the window system takes its time */
+}
+
 mns_status viewer_open_window(viewer *v, mns_error *error)
 {
     const char *reason = NULL;
@@ -65,10 +81,9 @@ mns_status viewer_open_window(viewer *v, mns_error *error)
     if (!v->window) return too_old(v, first, error);
     glfwMakeContextCurrent(v->window);
     glfwSwapInterval(1);
-    int units;
     glfwGetFramebufferSize(v->window, &v->width, &v->height);
-    glfwGetWindowSize(v->window, &units, NULL);
-    v->dots = units > 0 ? (double)v->width / units : 1;
+    viewer_measure(v);
+    if (!(v->dots > 0)) v->dots = 1;
     v->get_proc = glfwGetProcAddress;
     return MNS_OK;
 }

@@ -34,13 +34,25 @@ void pace_drawn(pace *p, double ms)
     if (p->step > PACE_STEPS) p->step = PACE_STEPS;
 }
 
+void pace_expect(pace *p, double whole_ms, double fixed_ms)
+{
+    double target = fmax(p->target_ms, 1.25 * fixed_ms), pixels = whole_ms - fixed_ms;
+    double fits = pixels > 0 ? floor(PACE_STEPS * sqrt((target - fixed_ms) / pixels)) : PACE_STEPS;
+    if (fits < p->step) p->step = fits > PACE_LEAST ? (int)fits : PACE_LEAST;
+}
+
 double pace_scale(const pace *p)
 {
     return (double)p->step / PACE_STEPS;
 }
 
+int pace_size_at(int step, int full)
+{
+    int size = (full * step + PACE_STEPS / 2) / PACE_STEPS;
+    return size > 0 ? size : 1;
+}
+
 int pace_size(const pace *p, int full)
 {
-    int size = (full * p->step + PACE_STEPS / 2) / PACE_STEPS;
-    return size > 0 ? size : 1;
+    return pace_size_at(p->step, full);
 }

@@ -17,9 +17,12 @@ enum { PACE_STEPS = 16, PACE_LEAST = 3 };
 void pace_begin(pace *p, int is_software);
 /* A moving frame, drawn at the present scale, took `ms`. */
 void pace_drawn(pace *p, double ms);
+/* The whole frame takes so long, of which a part hangs on no pixel: no larger than may be. */
+void pace_expect(pace *p, double whole_ms, double fixed_ms);
 /* The part of each side of the frame that is drawn, in (0, 1]. */
 double pace_scale(const pace *p);
-/* One side of a frame at that scale, at least 1. */
+/* One side of a frame at that scale, at least 1; and at a scale of so many steps. */
 int pace_size(const pace *p, int full);
+int pace_size_at(int step, int full);
 
 #endif

@@ -8,6 +8,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
@@ -27,6 +28,7 @@ struct panel {
     int at;
     size_t draws;
     float iso, radius_scale; /* while a slider is held */
+    float scale;             /* of its letters, framebuffer units */
     char acts[ACTS][ACT_SIZE]; /* what this showing asked for */
     int act_count;
 };
@@ -158,10 +160,29 @@ void controls(panel *p, const panel_content &c)
     if (ImGui::Button("keys")) p->help = !p->help;
 }
 
+/* Dear ImGui counts in the window's units: where these are larger than pixels already, nothing is left to do. */
+void fit_monitor(panel *p)
+{
+    GLFWwindow *window = static_cast<GLFWwindow *>(p->desc.window);
+    float across = 1, down = 1;
+    int units = 0, pixels = 0;
+    glfwGetWindowContentScale(window, &across, &down);
+    glfwGetWindowSize(window, &units, nullptr);
+    glfwGetFramebufferSize(window, &pixels, nullptr);
+    if (!(across > 0) || units < 1 || pixels < 1) return;
+    float scale = across * static_cast<float>(units) / static_cast<float>(pixels);
+    if (std::fabs(scale - p->scale) < 0.05F) return;
+    ImGui::GetStyle() = ImGuiStyle();
+    ImGui::StyleColorsDark();
+    ImGui::GetStyle().ScaleAllSizes(scale);
+    ImGui::GetIO().FontGlobalScale = scale;
+    p->scale = scale;
+}
+
 void main_window(panel *p, const panel_content &c)
 {
     ImGui::SetNextWindowPos(ImVec2(8, 8), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(ImVec2(300, 0), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(300 * p->scale, 0), ImGuiCond_FirstUseEver);
     if (ImGui::Begin("meniscus")) {
         controls(p, c);
         sequence(p, c);
@@ -193,16 +214,11 @@ panel *panel_open(const panel_desc *desc)
     panel *p = new (std::nothrow) panel();
     if (!p) return nullptr;
     GLFWwindow *window = static_cast<GLFWwindow *>(desc->window);
-    float across = 1, down = 1;
     p->desc = *desc;
+    p->scale = 1;
     p->context = ImGui::CreateContext();
     ImGui::SetCurrentContext(p->context);
     ImGui::GetIO().IniFilename = nullptr; /* nothing is left on disk */
-    glfwGetWindowContentScale(window, &across, &down);
-    if (across > 0) {
-        ImGui::GetIO().FontGlobalScale = across;
-        ImGui::GetStyle().ScaleAllSizes(across);
-    }
     ImGui_ImplGlfw_InitForOpenGL(window, true);
     if (ImGui_ImplOpenGL3_Init("#version 430 core")) return p;
     ImGui_ImplGlfw_Shutdown();
@@ -226,6 +242,7 @@ void panel_show(panel *p, const panel_content *content)
     ImGui::SetCurrentContext(p->context);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    fit_monitor(p);
     ImGui::NewFrame();
     remember(p, *content);
     main_window(p, *content);

@@ -72,15 +72,15 @@ static void compared(viewer *v, panel_content *p)
 
 static void sequence(const viewer *v, panel_content *p)
 {
-    const timeline *t = &v->timeline;
-    p->frame = v->wanted >= 0 ? v->wanted : t->shown;
+    const timeline *t = &v->now->timeline;
+    p->frame = v->now->wanted >= 0 ? v->now->wanted : t->shown;
     p->frames = t->frames;
     p->plays = t->playing;
     p->loops = t->loops;
     p->speed = t->speed;
     if (t->frames > 1)
         line(p, "frame %ld of %ld, %ld dropped, read in %.1f ms", t->shown, t->frames, t->dropped,
-             v->read_ms);
+             v->now->read_ms);
 }
 
 static void left_out(const viewer *v, char text[LEFT_OUT])
@@ -94,13 +94,12 @@ static void left_out(const viewer *v, char text[LEFT_OUT])
 
 void panel_fill(viewer *v)
 {
-    static const mns_field_info nothing = {0};
     choice choices[CHOICES];
     panel_choice shown[CHOICES];
     char text[LEFT_OUT] = "";
     panel_content p = {.choice = shown, .fov = v->camera.fov, .draws = v->draws, .status = v->status};
-    mns_field_info info = nothing;
-    if (v->field) mns_field_get_info(v->field, &info);
+    mns_field_info info;
+    mns_field_get_info(v->now->field, &info);
     while (p.choice_count < CHOICES && choice_at(v, (int)p.choice_count, &choices[p.choice_count])) {
         const choice *c = &choices[p.choice_count];
         shown[p.choice_count++] = (panel_choice){c->label, c->action, c->names, (size_t)c->count,

@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/status.h"
 
+#include <omp.h>
 #include <string.h>
 
 /* Reads what is asked for, with the lock given up meanwhile. */
@@ -29,6 +30,7 @@ static void read_asked(player *p)
 static void *work(void *context)
 {
     player *p = context;
+    if (p->threads) omp_set_num_threads(p->threads);
     pthread_mutex_lock(&p->lock);
     while (!p->stop) {
         if (p->asked < 0) {
@@ -42,11 +44,12 @@ static void *work(void *context)
     return NULL;
 }
 
-mns_status player_open(player *p, mns_input *input, void (*wake)(void), mns_error *error)
+mns_status player_open(player *p, mns_input *input, void (*wake)(void), int threads, mns_error *error)
 {
     memset(p, 0, sizeof *p);
     p->input = input;
     p->wake = wake;
+    p->threads = threads;
     p->asked = p->reading = p->ready = -1;
     pthread_mutex_init(&p->lock, NULL);
     pthread_cond_init(&p->changed, NULL);

@@ -1,5 +1,5 @@
-/* Reads frames of a sequence on a thread of its own, one ahead of what is shown: at most the frame that is
- * read and the one that was not taken yet are held. */
+/* Reads frames of a sequence on a thread of its own, ahead of what is shown: at most the frame that is read
+ * and the one that was not taken yet are held. */
 #ifndef MNS_WINDOW_PLAYER_H
 #define MNS_WINDOW_PLAYER_H
 
@@ -14,6 +14,7 @@ typedef struct player {
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool running, stop;
+    int threads;      /* that reading may use; 0: OpenMP's own choice */
     long asked;       /* -1: nothing */
     long reading;     /* -1: nothing */
     long ready;       /* the frame that `field` or `status` is of; -1: none */
@@ -23,8 +24,8 @@ typedef struct player {
     mns_error error;
 } player;
 
-/* Takes the input over, and starts the thread. Errors: MEMORY. */
-mns_status player_open(player *p, mns_input *input, void (*wake)(void), mns_error *error);
+/* Takes the input over, and starts the thread, which reads on so many. Errors: MEMORY. */
+mns_status player_open(player *p, mns_input *input, void (*wake)(void), int threads, mns_error *error);
 /* Ends the thread, after the frame that it reads, and closes the input; zeroed is nothing. */
 void player_close(player *p);
 

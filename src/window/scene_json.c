@@ -193,13 +193,33 @@ static json_t *scene_of(const window_settings *s, const mns_look *look, const mn
     return to;
 }
 
+/* JSON is UTF-8, and names of files need not be. Errors: UNSUPPORTED. */
+static mns_status check_text(const char *name, bool is_file, mns_error *error)
+{
+    json_t *text = !name ? json_null() : is_file ? file_name(name) : json_string(name);
+    json_decref(text);
+    if (text) return MNS_OK;
+    return status_fail(error, MNS_ERROR_UNSUPPORTED,
+                       "%.200s: a scene is UTF-8 text, and this name is not; ctrl+C copies a command line",
+                       name);
+}
+
+static mns_status check_names(const window_settings *s, const mns_look *look, mns_error *error)
+{
+    mns_status status = check_text(look->color_by, false, error);
+    if (!status) status = check_text(look->effects.environment, true, error);
+    for (size_t i = 0; i < s->input_count && !status; i++) status = check_text(s->inputs[i], true, error);
+    return status;
+}
+
 mns_status scene_json_write(const window_settings *s, const mns_look *look, const mns_view *view, long frame,
                             const char *path, mns_error *error)
 {
     char beside[PATH_MAX];
+    mns_status status = check_names(s, look, error);
+    if (status) return status;
     json_t *scene = scene_of(s, look, view, frame);
     if (!scene) return status_no_memory(error, "writing a scene");
-    mns_status status = MNS_OK;
     errno = 0;
     snprintf(beside, sizeof beside, "%s.meniscus-%ld.part", path, (long)getpid());
     if (json_dump_file(scene, beside, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) || rename(beside, path)) {

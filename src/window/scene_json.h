@@ -5,7 +5,7 @@
 #include "window/window.h"
 
 /* Writes what `meniscus render` needs to draw this view of this frame, beside the name and renamed. Errors:
- * IO, MEMORY. */
+ * IO, MEMORY, UNSUPPORTED (a name is not UTF-8). */
 mns_status scene_json_write(const window_settings *s, const mns_look *look, const mns_view *view, long frame,
                             const char *path, mns_error *error);
 

@@ -22,7 +22,6 @@ static long steps_to(const timeline *t, long frame)
 void timeline_play(timeline *t, double now_ms)
 {
     if (t->frames < 2) return;
-    if (!t->loops && t->shown == t->frames - 1) t->shown = 0;
     t->playing = true;
     t->dropped = 0;
     t->shown_ms = now_ms;
@@ -31,6 +30,12 @@ void timeline_play(timeline *t, double now_ms)
 void timeline_pause(timeline *t)
 {
     t->playing = false;
+}
+
+void timeline_loop(timeline *t, bool loops)
+{
+    t->loops = loops;
+    if (!loops && t->shown == t->frames - 1) t->playing = false;
 }
 
 void timeline_speed(timeline *t, double speed, double now_ms)
@@ -49,13 +54,15 @@ double timeline_due_ms(const timeline *t, long frame)
     return t->shown_ms + (double)steps_to(t, frame) * step_ms(t);
 }
 
-long timeline_next(const timeline *t, double now_ms, double lead_ms)
+long timeline_next(const timeline *t, long after, double now_ms, double lead_ms)
 {
-    if (!t->playing || (!t->loops && t->shown == t->frames - 1)) return -1;
+    const long last = t->frames - 1;
+    if (!t->playing || (!t->loops && after == last && after != t->shown)) return -1;
     /* What would be over before it is there is passed by, but not more than once around, nor an end. */
+    long least = after == t->shown ? 1 : steps_to(t, after) + 1;
+    long most = t->loops ? least + last - 1 : t->shown == last ? t->frames : last - t->shown;
     double behind = floor((now_ms + lead_ms - t->shown_ms) / step_ms(t));
-    long most = t->loops ? t->frames - 1 : t->frames - 1 - t->shown;
-    long steps = behind < 1 ? 1 : behind > most ? most : (long)behind;
+    long steps = behind < (double)least ? least : behind > (double)most ? most : (long)behind;
     return (t->shown + steps) % t->frames;
 }
 

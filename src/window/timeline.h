@@ -15,7 +15,7 @@ typedef struct timeline {
 } timeline;
 
 void timeline_begin(timeline *t, long frames, long first);
-/* Plays on from the frame shown; from the first where that is the last. */
+/* Plays on from the frame shown; where that is the last, the first one comes next. */
 void timeline_play(timeline *t, double now_ms);
 void timeline_pause(timeline *t);
 /* Times the rate, kept within 1/64 and 64. */
@@ -23,9 +23,12 @@ void timeline_speed(timeline *t, double speed, double now_ms);
 /* Kept within the sequence. */
 long timeline_clamp(const timeline *t, long frame);
 
-/* The frame to read next: of those after the one shown the first that can still be shown in time, `lead_ms`
- * from now. -1: there is none, it has come to its end or is paused. */
-long timeline_next(const timeline *t, double now_ms, double lead_ms);
+/* Whether it begins again at its end. */
+void timeline_loop(timeline *t, bool loops);
+
+/* The frame to read next: of those after `after`, which is shown or one of those to come, the first that can
+ * still be shown in time, `lead_ms` from now. -1: there is none, it has come to its end or is paused. */
+long timeline_next(const timeline *t, long after, double now_ms, double lead_ms);
 /* When `frame`, one of those to come, is due; a frame that is late is due at once. */
 double timeline_due_ms(const timeline *t, long frame);
 /* `frame` is in the window now: counts those passed over, and ends at the end. */

@@ -28,7 +28,7 @@ typedef enum compare_mode {
 typedef struct side {
     mns_renderer *renderer;
     mns_frame *frame;
-    bool is_drawn; /* the frame holds a picture */
+    bool is_drawn; /* the frame holds a picture, if that before one that failed */
     int sum;       /* samples that are summed in it */
     int samples;   /* that its colours were weighted for */
     double ms;     /* of its last draw */
@@ -55,6 +55,31 @@ typedef struct hover {
     char text[STATUS_SIZE];
 } hover;
 
+/* What is looked at: an input that was opened, and where in it. */
+typedef struct subject {
+    player player;
+    mns_field *field, *ahead; /* of timeline.shown; the next one, which was prepared */
+    mns_field *first;         /* frame 0 of a sequence; else NULL */
+    long ahead_frame;
+    mns_reference *reference; /* of `field`, made when it is first asked for */
+    mns_input_options opened; /* what the input was opened with */
+    timeline timeline;
+    long wanted; /* a frame that was asked for by hand; -1: none */
+    double read_ms;
+} subject;
+
+/* Settings that have changed, and by which nothing was drawn yet: what there was before them. */
+typedef struct trial {
+    bool is_on;
+    subject *before; /* NULL: the same one */
+    camera camera, home;
+    mns_view seen;
+    stage stage; /* how far its picture was, at this size; */
+    bool is_coarse;
+    int width, height;
+    char opens[STATUS_SIZE]; /* what is told once it is drawn; "": nothing */
+} trial;
+
 typedef struct viewer {
     const window_desc *desc;
     const window_settings *settings;
@@ -69,18 +94,10 @@ typedef struct viewer {
     bool closing;
 
     /* what is shown */
-    player player;
-    mns_field *field, *ahead; /* of timeline.shown; the next one, which was prepared */
-    mns_field *first;         /* frame 0 of a sequence; else NULL */
-    mns_look look;            /* the settings' one, its range fixed by `first` */
-    long ahead_frame;
-    mns_reference *reference; /* of `field`, made when it is first asked for */
-    mns_input_options opened; /* what the input was opened with */
-    mns_view seen;            /* the settings' view that the camera comes from */
-    bool on_trial;            /* the settings have changed, and nothing was drawn by them yet */
-    timeline timeline;
-    long wanted; /* a frame that was asked for by hand; -1: none */
-    double read_ms;
+    subject *now;
+    mns_look look; /* the settings' one, its range fixed by frame 0 */
+    mns_view seen; /* the settings' view that the camera comes from */
+    trial trial;
     camera camera, home;
     int width, height; /* of the window's framebuffer, pixels */
     double dots;       /* framebuffer pixels a unit of the window: 2 on many a fine display */
@@ -92,9 +109,12 @@ typedef struct viewer {
     double moving_ms[2]; /* what the last two pictures took that moved */
     double moved_ms;     /* when it last moved */
     bool held;           /* a hand holds the camera */
+    bool failed;         /* it could not be drawn: what is shown is the picture before */
     bool patient;        /* however long it takes, it is drawn whole */
     bool is_coarse;      /* it is left as it was drawn while it moved */
+    bool is_new;         /* other settings or another input: what it costs is not known */
     bool asked_twice;    /* how long it would take */
+    int coarse_step;     /* the scale of the last coarse picture, see pace.h */
     bool stale;          /* the window shows less than is drawn */
     int polish;          /* how often more to show the panel before it rests */
     size_t draws;        /* pictures drawn so far, and put on the window */
@@ -126,7 +146,11 @@ void viewer_tell(viewer *v, const char *format, ...) __attribute__((format(print
 void viewer_tell_error(viewer *v, const mns_error *error);
 /* open.c: makes the window and its context, current from then on. Errors: GL. */
 mns_status viewer_open_window(viewer *v, mns_error *error);
-/* The size of the window's framebuffer. */
+/* Framebuffer pixels a unit of the window, which another monitor may change. */
+void viewer_measure(viewer *v);
+/* Asks the window system for a framebuffer of that size; 0: as by default. */
+void viewer_set_size(viewer *v, int width, int height);
+/* The size of the window's framebuffer, as it has become. */
 void viewer_resize(viewer *v, int width, int height);
 /* Wakes the loop, from whichever thread. */
 void viewer_wake(void);
@@ -139,31 +163,37 @@ bool viewer_open_panel(viewer *v); /* false: there is none */
 void viewer_close_panel(viewer *v);
 void viewer_help(viewer *v);
 
-/* subject.c: opens what the settings name, from their frame on; on failure all stays as it is. `fits`: look
- * at the whole of it. Errors: as mns_input_open and mns_input_read. */
+/* subject.c: opens what the settings name, from their frame on, and puts what was looked at aside until it is
+ * drawn; on failure all stays as it is. `fits`: look at the whole of it. Errors: as mns_input_open and
+ * mns_input_read. */
 mns_status subject_open(viewer *v, bool fits, mns_error *error);
 /* What is being made ahead of a field has come to its end, and the field may go. */
 void subject_settle(viewer *v);
-void subject_close(viewer *v);
-/* What the settings say after a change of one: opens the input anew only where it must. Errors: as
- * subject_open. */
+void subject_free(viewer *v, subject *s);
+/* What the settings say after a change of one: opens the input anew only where it must. On failure all stays
+ * as it is. Errors: as subject_open. */
 mns_status subject_follow(viewer *v, mns_error *error);
 /* The look that is drawn becomes that of the settings. */
 void subject_look(viewer *v);
-/* Goes to a frame by hand. */
-void subject_go(viewer *v, long frame);
-void subject_play(viewer *v, bool plays);
-/* Takes frames that were read, and shows the one that is due. Returns when to come again, milliseconds;
- * INFINITY: when woken. */
-double subject_step(viewer *v);
 /* The reference of the field that is shown; NULL where there is none. */
 mns_reference *subject_reference(viewer *v);
+/* What hangs on the field that is shown goes, and the field. */
+void subject_drop_field(viewer *v, subject *s);
+
+/* frames.c: goes to a frame by hand. */
+void frames_go(viewer *v, long frame);
+void frames_play(viewer *v, bool plays);
+/* Takes frames that were read, and shows the one that is due. Returns when to come again, milliseconds;
+ * INFINITY: when woken. */
+double frames_step(viewer *v);
 
 /* drawing.c: makes renderers and frames. Errors: GL, MEMORY. */
 mns_status drawing_begin(viewer *v, mns_error *error);
 void drawing_end(viewer *v);
 /* The picture is another one; `moves`: and goes on moving. */
 void drawing_change(viewer *v, bool moves);
+/* It is one by other settings, of which nobody knows what it costs. */
+void drawing_renew(viewer *v);
 /* Draws the next bit of it, if there is one. Returns when to come again; INFINITY: it is whole. Errors: as
  * mns_renderer_draw; then the picture before stays. */
 mns_status drawing_step(viewer *v, double *again_ms, mns_error *error);
@@ -191,8 +221,9 @@ double divider_scale(const viewer *v);
 /* events.c: what a hand does; x and y in framebuffer pixels. Names as GLFW has them. */
 void events_press(viewer *v, int button, bool pressed, int mods);
 void events_move(viewer *v, double x, double y);
-void events_scroll(viewer *v, double by);
-void events_key(viewer *v, int key, int mods);
+void events_scroll(viewer *v, double across, double by);
+void events_key(viewer *v, int key, int mods, bool repeats);
+void events_type(viewer *v, unsigned character);
 /* Moves a flight on; true while there is one. */
 bool events_fly(viewer *v);
 /* Moves a spin on, and tells what it came to at its end; true while there is one. */
@@ -205,7 +236,9 @@ void events_hover(viewer *v);
 mns_status settings_change(viewer *v, const char *name, const char *value, mns_error *error);
 /* Opens other inputs, or a scene; on failure all is as it was. */
 mns_status settings_open(viewer *v, const char *const *names, size_t count, mns_error *error);
-/* What could not be drawn is taken back. */
+/* They were drawn: they stay. */
+void settings_kept(viewer *v);
+/* What could not be drawn is taken back: words, input, frame and camera. */
 void settings_refused(viewer *v);
 
 /* action.c: does one line of a script, such as "orbit 30 0". Errors: USAGE, and what the action gives. */

@@ -45,11 +45,11 @@ static void show_title(viewer *v)
     const char *input = v->settings->input_count ? v->settings->inputs[0] : "";
     const char *slash = strrchr(input, '/');
     size_t used = (size_t)snprintf(title, sizeof title, "%.60s", slash ? slash + 1 : input);
-    if (v->timeline.frames > 1 && used < sizeof title)
-        used += (size_t)snprintf(title + used, sizeof title - used, " [%ld/%ld]", v->timeline.shown,
-                                 v->timeline.frames - 1);
-    if (v->timeline.dropped && used < sizeof title)
-        used += (size_t)snprintf(title + used, sizeof title - used, " %ld dropped", v->timeline.dropped);
+    if (v->now->timeline.frames > 1 && used < sizeof title)
+        used += (size_t)snprintf(title + used, sizeof title - used, " [%ld/%ld]", v->now->timeline.shown,
+                                 v->now->timeline.frames - 1);
+    if (v->now->timeline.dropped && used < sizeof title)
+        used += (size_t)snprintf(title + used, sizeof title - used, " %ld dropped", v->now->timeline.dropped);
     if (a->is_drawn && used < sizeof title)
         used += (size_t)snprintf(title + used, sizeof title - used, " - %s %s %.1f ms",
                                  mns_frame_stats(a->frame)->method, mns_frame_stats(a->frame)->solver, a->ms);
@@ -153,7 +153,18 @@ static bool mouse_is_taken(const viewer *v)
 
 static void on_size(GLFWwindow *window, int width, int height)
 {
-    viewer_resize(glfwGetWindowUserPointer(window), width, height);
+    viewer *v = glfwGetWindowUserPointer(window);
+    viewer_measure(v);
+    viewer_resize(v, width, height);
+}
+
+/* On another monitor. */
+static void on_scale(GLFWwindow *window, float across, float down)
+{
+    viewer *v = glfwGetWindowUserPointer(window);
+    (void)across, (void)down;
+    viewer_measure(v);
+    v->polish = 2;
 }
 
 static void on_refresh(GLFWwindow *window)
@@ -179,27 +190,37 @@ static void on_cursor(GLFWwindow *window, double x, double y)
 static void on_scroll(GLFWwindow *window, double x, double y)
 {
     viewer *v = glfwGetWindowUserPointer(window);
-    (void)x;
     v->polish = 2;
-    if (!mouse_is_taken(v)) events_scroll(v, y);
+    if (!mouse_is_taken(v)) events_scroll(v, x, y);
+}
+
+/* The letter that is printed on a key, whatever the layout; GLFW's keys are places on an American one. */
+static int letter_of(int key, int code)
+{
+    const char *name = key >= GLFW_KEY_A && key <= GLFW_KEY_Z ? glfwGetKeyName(key, code) : NULL;
+    return name && name[0] >= 'a' && name[0] <= 'z' && !name[1] ? name[0] - 'a' + GLFW_KEY_A : key;
 }
 
 static void on_key(GLFWwindow *window, int key, int code, int action, int mods)
 {
     viewer *v = glfwGetWindowUserPointer(window);
-    (void)code;
     v->polish = 2;
-    if (action != GLFW_RELEASE && !(v->panel && panel_takes_keys(v->panel))) events_key(v, key, mods);
+    if (action != GLFW_RELEASE && !(v->panel && panel_takes_keys(v->panel)))
+        events_key(v, letter_of(key, code), mods, action == GLFW_REPEAT);
+}
+
+static void on_character(GLFWwindow *window, unsigned character)
+{
+    viewer *v = glfwGetWindowUserPointer(window);
+    if (!(v->panel && panel_takes_keys(v->panel))) events_type(v, character);
 }
 
 static void on_drop(GLFWwindow *window, int count, const char **paths)
 {
     viewer *v = glfwGetWindowUserPointer(window);
     mns_error error;
-    if (settings_open(v, paths, (size_t)count, &error))
-        viewer_tell_error(v, &error);
-    else
-        viewer_tell(v, "opened %.400s", paths[0]);
+    if (settings_open(v, paths, (size_t)count, &error)) viewer_tell_error(v, &error);
+    v->polish = 2;
 }
 
 bool viewer_flies(const viewer *v, double way[3])
@@ -228,6 +249,8 @@ static void listen(viewer *v)
     glfwSetCursorPosCallback(v->window, on_cursor);
     glfwSetScrollCallback(v->window, on_scroll);
     glfwSetKeyCallback(v->window, on_key);
+    glfwSetCharCallback(v->window, on_character);
+    glfwSetWindowContentScaleCallback(v->window, on_scale);
     glfwSetDropCallback(v->window, on_drop);
 }
 
@@ -262,7 +285,8 @@ static void close_all(viewer *v)
     check_stop(&v->check);
     tell_messages(v);
     panel_close(v->panel);
-    subject_close(v);
+    subject_free(v, v->now);
+    subject_free(v, v->trial.before);
     drawing_end(v);
     screen_close(&v->screen);
     script_free(&v->script);
@@ -273,15 +297,20 @@ static void close_all(viewer *v)
 
 /* ---- The loop ---- */
 
+/* Nothing more is to come; of what plays, nothing more of its frame. */
+static bool is_at_rest(const viewer *v)
+{
+    bool drawn = v->stage == STAGE_DONE || (v->now->timeline.playing && v->stage != STAGE_CHANGED);
+    return drawn && !v->stale && v->now->wanted < 0 && !v->check.running && !v->spin.until_ms;
+}
+
 /* The next lines of the script, until one waits. Errors: as the action's, with the script's line. */
 static mns_status run_script(viewer *v, mns_error *error)
 {
     script *s = &v->script;
     while (s->next && !v->closing) {
         mns_error why;
-        if (s->rests &&
-            (v->stage != STAGE_DONE || v->stale || v->wanted >= 0 || v->check.running || v->spin.until_ms))
-            return MNS_OK;
+        if (s->rests && !is_at_rest(v)) return MNS_OK;
         if (clock_ms() < s->until_ms) return MNS_OK;
         s->rests = false;
         const char *line = script_next(s);
@@ -304,10 +333,10 @@ static double turn(viewer *v, mns_status *status, mns_error *error)
     if (*status) return 0;
     if (v->panel_goes) viewer_close_panel(v);
     bool flies = events_spin(v) || events_fly(v);
-    wait = subject_step(v);
+    wait = frames_step(v);
     if (drawing_step(v, &again, &why)) {
-        viewer_tell_error(v, &why);
         settings_refused(v);
+        viewer_tell_error(v, &why);
         again = 0;
     }
     wait = fmin(flies ? 0 : wait, again);
@@ -355,7 +384,6 @@ mns_status window_run(const window_desc *desc, mns_error *error)
     v->settings = desc->host.settings(desc->host.context);
     v->keys = keys_text();
     v->place = 0.5;
-    v->wanted = -1;
     mns_status status = open_all(v, error);
     if (!status) status = loop(v, error);
     close_all(v);

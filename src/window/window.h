@@ -16,9 +16,12 @@ typedef struct window_settings {
     mns_options draw;
     long frame;
     bool no_cache;
+    double patience_ms; /* what takes longer is drawn whole only when it is asked for */
+    int threads;        /* 0: OpenMP's own choice */
 } window_settings;
 
-/* The program that opened the window. What `settings` gives lives until the next `set`, `open` or `undo`. */
+/* The program that opened the window. What `settings` gives lives until the next `set`, `open`,
+ * `back` or `undo`. */
 typedef struct window_host {
     void *context;
     const window_settings *(*settings)(void *context);
@@ -27,6 +30,8 @@ typedef struct window_host {
     mns_status (*set)(void *context, const char *name, const char *value, mns_error *error);
     /* Other inputs, or another scene. Errors: USAGE, IO, INPUT; then nothing has changed. */
     mns_status (*open)(void *context, const char *const *names, size_t count, mns_error *error);
+    /* The last `set` or `open` is taken back; once. */
+    void (*back)(void *context);
     /* The settings as they are can be drawn; and back to those that could. */
     void (*keep)(void *context);
     void (*undo)(void *context);
