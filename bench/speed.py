@@ -18,7 +18,7 @@ RATIOS = {
 PAPER = {"S100k": ("S1_100k", 3), "S1M": ("S1_1M", 6), "D100k": ("S2_100k", 3), "D1M": ("S2_1M", 6)}
 LARGE_MOST_MS = 1000  # 1,600,000 balls, dense, 1024x768
 GROWTH = [100_000, 400_000, 1_600_000, 6_400_000, 16_000_000]  # scattered balls
-GROWTH_REPEAT = 3
+GROWTH_REPEAT = 7
 PAPER_ROUNDS, PAPER_REPEAT = 3, {"list": 3, "tile": 7}
 GROWTH_MOST_MIB = 6 * 1024  # the whole program, of the last
 

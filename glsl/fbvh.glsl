@@ -28,6 +28,10 @@ const int PIECE_NONE = 0, PIECE_HIT = 1, PIECE_OPEN = 2, PIECE_CAP = 3;
 
 layout(local_size_x = 64) in;
 layout(location = 3) uniform ivec4 tree_region; // x, y, past x, past y
+layout(std430, binding = 7) readonly buffer Blocks {
+    uint block_count;
+    uint block[]; // of 8x8 pixels that some box touches: column, and row 16 bits up
+};
 layout(binding = 1, rg32f) writeonly uniform image2D plane_t;
 layout(binding = 2, rgba32f) writeonly uniform image2D plane_normal;
 #ifdef COLORS
@@ -39,9 +43,11 @@ layout(binding = 4, rgba32f) writeonly uniform image2D plane_counts;
 
 void main()
 {
+    uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+    if (group >= block_count) return;
     uint lane = gl_LocalInvocationIndex;
     ivec2 within = ivec2((lane & 3u) | (lane >> 1u & 4u), (lane >> 2u & 1u) | (lane >> 3u & 6u));
-    ivec2 at = tree_region.xy + 8 * ivec2(gl_WorkGroupID.xy) + within;
+    ivec2 at = tree_region.xy + 8 * ivec2(block[group] & 0xffffu, block[group] >> 16u) + within;
     if (at.x >= tree_region.z || at.y >= tree_region.w) return;
     vec2 position = vec2(at) + 0.5;
     Ray ray = view_ray(position);

@@ -57,7 +57,7 @@ REAL view_reach = NUM(0.0); // distance of the ray's start from o
 REAL view_reach;   // distance of the ray's start from o
 REAL view_excess;  // way from the eye to the ray's start, less the depth of the plane where rays begin
 #elif defined(TREE_DEPTH) && defined(MNS_DOUBLE)
-// A ball's two floats hold its place to 2^-50 of its distance from o, far below TAU; the ray's own way has no part in o.
+// A ball's two floats hold its place to 2^-49 of its distance from o, far below TAU; the ray's own way has no part in o.
 #define view_reach (level.w / NUM(256.0))
 #elif defined(TREE_DEPTH)
 #define view_reach level.w

@@ -272,15 +272,22 @@ static void bind_lists(list_passes *p, gl_device *device, const mns_plan *plan, 
     gl->BindTexture(GL_TEXTURE_2D, p->host_depth);
 }
 
-/* Runs the cast where something is listed; everything else is a miss, and certain. */
-static void draw_squares(list_passes *p, gl_device *device, const mns_plan *plan, GLuint program,
-                         list_region region)
+void list_clear_planes(list_passes *p, gl_device *device, const mns_plan *plan, GLuint target,
+                       list_region region)
 {
     static const GLfloat miss[3][4] = {{INFINITY}, {0, 0, 0, 1}};
     const GladGLContext *gl = &device->gl;
-    const GLsizei width = plan_square_round(region.width), height = plan_square_round(region.height);
+    gl->BindFramebuffer(GL_FRAMEBUFFER, target);
+    scissor(device, p, region);
     for (int i = 0; i < (plan->features & FEATURE_COLORS ? 3 : 2); i++)
         gl->ClearBufferfv(GL_COLOR, i, miss[i]);
+}
+
+/* Runs the cast where something is listed. */
+static void draw_squares(list_passes *p, gl_device *device, GLuint program, list_region region)
+{
+    const GladGLContext *gl = &device->gl;
+    const GLsizei width = plan_square_round(region.width), height = plan_square_round(region.height);
     gl->Viewport(region.x, region.y, width, height); /* what passes the frame's edges is cut off there */
     gl->UseProgram(program);
     gl->Uniform2f(UNIFORM_SQUARE_VIEW, (GLfloat)width, (GLfloat)height);
@@ -306,9 +313,10 @@ void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GL
     gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof none, &none);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view.id);
     bind_lists(p, device, plan, program[SHADER_CAST]);
-    if (plan->features & FEATURE_SQUARES)
-        draw_squares(p, device, plan, program[SHADER_CAST], region);
-    else
+    if (plan->features & FEATURE_SQUARES) {
+        list_clear_planes(p, device, plan, target, region);
+        draw_squares(p, device, program[SHADER_CAST], region);
+    } else
         draw_screen(p, device, program[SHADER_CAST]);
     read_counts(p, device, counts);
 }

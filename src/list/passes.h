@@ -59,6 +59,10 @@ void list_sort_nodes(list_passes *p, gl_device *device, GLuint program, list_reg
 void list_shuffle(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],
                   list_region region);
 
+/* Makes a region of `target` (t, normal, color planes) a miss that is certain. */
+void list_clear_planes(list_passes *p, gl_device *device, const mns_plan *plan, GLuint target,
+                       list_region region);
+
 /* Casts a region into `target` (t, normal, color planes) and tells what is left to resolve. */
 void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GLuint program[SHADER_COUNT],
                GLuint target, list_region region, list_counts *counts);

@@ -126,9 +126,11 @@ static mns_status trace_rows(draw *d, list_region region, mns_error *error)
                                          d->plan->features & FEATURE_COUNTERS ? f->work : 0};
     mns_renderer *r = d->r;
     list_counts counts;
-    trace_cast(&r->trace, &r->passes, &r->device, d->plan, d->program[SHADER_TREE], planes, region, &counts);
+    mns_status status = trace_cast(&r->trace, &r->passes, &r->device, d->plan, d->program[SHADER_TREE],
+                                   f->planes_target, planes, region, &counts, error);
+    if (status) return status;
     d->stats->tiles++;
-    mns_status status = counts.redo ? resolve(d, planes, &counts, error) : MNS_OK;
+    if (counts.redo) status = resolve(d, planes, &counts, error);
     draw_mark(d, MNS_PHASE_TRACE);
     draw_counts_add(d->stats, &counts);
     return status;

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <string.h>
 
+enum { BINDING_BLOCKS = 7 };
 enum { UNIFORM_BASE = 0, UNIFORM_CELL = 1, UNIFORM_ROOT = 2, UNIFORM_REGION = 3, UNIFORM_SECANT_STEPS = 4 };
 
 /* ---- What is traced ---- */
@@ -83,6 +84,7 @@ mns_status trace_upload(trace_passes *t, gl_device *device, const mns_plan *plan
                         mns_error *error)
 {
     mns_status status = keep_index(t, tree, error);
+    if (!status) status = trace_blocks_take(&t->blocks, tree, error);
     if (!status) status = upload_nodes(t, device, plan, tree, error);
     if (!status) status = upload_references(t, device, plan, tree, error);
     if (!status) status = upload_balls(t, device, plan, tree, error);
@@ -177,22 +179,45 @@ void trace_finish(list_passes *p, gl_device *device, list_counts *counts)
     gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof *counts, counts);
 }
 
-void trace_cast(trace_passes *t, list_passes *p, gl_device *device, const mns_plan *plan, GLuint program,
-                const GLuint plane[TRACE_PLANES], list_region region, list_counts *counts)
+static mns_status upload_blocks(trace_passes *t, gl_device *device, const mns_plan *plan, list_region region,
+                                mns_error *error)
+{
+    mns_status status = trace_blocks_list(&t->blocks, plan, region, error);
+    size_t size = status ? 0 : (t->blocks.list[0] + 1) * sizeof *t->blocks.list;
+    void *data;
+    do {
+        if (!status) status = map(device, plan, &t->block_list, "blocks of pixels", size, &data, error);
+        if (status) return status;
+        memcpy(data, t->blocks.list, size);
+    } while (!gl_buffer_unmap(device, &t->block_list));
+    return MNS_OK;
+}
+
+mns_status trace_cast(trace_passes *t, list_passes *p, gl_device *device, const mns_plan *plan,
+                      GLuint program, GLuint target, const GLuint plane[TRACE_PLANES], list_region region,
+                      list_counts *counts, mns_error *error)
 {
     const GladGLContext *gl = &device->gl;
     const list_counts none = {0};
+    const GLuint most = 65535; /* groups that GL promises a side */
+    mns_status status = upload_blocks(t, device, plan, region, error);
+    if (status) return status;
+    GLuint blocks = t->blocks.list[0];
+    list_clear_planes(p, device, plan, target, region);
     gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
     gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof none, &none);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view.id);
     bind_tree(t, p, device, plan, plane);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_BLOCKS, t->block_list.id);
     trace_use(t, device, program);
     list_view_loose(device, p->view_now);
     gl->Uniform4i(UNIFORM_REGION, region.x, region.y, region.x + region.width, region.y + region.height);
     if (plan->options.solver == MNS_SOLVER_SECANT)
         gl->Uniform1i(UNIFORM_SECANT_STEPS, plan->options.secant_steps);
-    gl->DispatchCompute((GLuint)(region.width + 7) / 8, (GLuint)(region.height + 7) / 8, 1);
+    gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    if (blocks) gl->DispatchCompute(blocks < most ? blocks : most, (blocks + most - 1) / most, 1);
     trace_finish(p, device, counts);
+    return MNS_OK;
 }
 
 void trace_resolve(trace_passes *t, list_passes *p, gl_device *device, const mns_plan *plan, GLuint program,
@@ -215,10 +240,12 @@ void trace_resolve(trace_passes *t, list_passes *p, gl_device *device, const mns
 
 void trace_passes_free(trace_passes *t, gl_device *device)
 {
-    gl_buffer *all[] = {&t->balls, &t->balls_low, &t->colors, &t->pairs, &t->leaves, &t->references};
+    gl_buffer *all[] = {&t->balls,  &t->balls_low,  &t->colors,    &t->pairs,
+                        &t->leaves, &t->references, &t->block_list};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) gl_buffer_free(device, all[i]);
     GLuint textures[] = {t->ball_texels, t->pair_texels, t->leaf_texels, t->reference_texels};
     device->gl.DeleteTextures(sizeof textures / sizeof *textures, textures);
+    trace_blocks_free(&t->blocks);
     free(t->index);
     *t = (trace_passes){0};
 }
