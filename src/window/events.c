@@ -36,6 +36,7 @@ static void centre(viewer *v)
 void events_press(viewer *v, int button, bool pressed, int mods)
 {
     if (!pressed) {
+        if (v->drag == DRAG_DIVIDER) viewer_tell(v, "divider at %.3f", v->place);
         v->drag = DRAG_NONE;
         v->held = false;
         v->moved_ms = clock_ms();

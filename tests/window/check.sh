@@ -14,7 +14,6 @@ refused MESA_GL_VERSION_OVERRIDE=3.3
 grep -q 'OpenGL 3.3' errors || complain "an old driver is not told: $(cat errors)"
 
 # ---- A script: the picture of every view is that of render, bit for bit; what is wrong is told, and changes nothing.
-size=(--size 320x240)
 printf '0,0,0\n1,nan,0\n' >bad.csv
 view $'save first.png
 orbit 40 20\nscroll 2\nset method fbvh\ncopy\nsave turned.png
@@ -65,6 +64,48 @@ point() { sed -n "s/^$1: .* at \([-0-9.e, ]*\): density.*/\1/p" log; }
 awk -v a="$(point hover)" -v b="$(point centred)" 'BEGIN { split(a, p, ", "); split(b, q, ", ");
     for (i = 1; i <= 3; i++) if ((p[i] - q[i]) ^ 2 > 1e-4) exit 1 }' || complain "centre does not centre: $(cat log)"
 [[ $(sed -n 's/^flickered: .*showed \([0-9]*\),.*/\1/p' log) -ge 4 ]] || complain "it does not flicker: $(cat log)"
+
+# ---- The difference on the window has the colours of the distances that render writes.
+if [[ -n $difference ]]; then
+    from=("${size[@]}" --method list --eye 0.5,0.5,3 --look-at 0.5,0.5,0.5)
+    view $'other list:cubic\ncompare difference\nscale 1000\nrest\ngrab difference.png\nquit' scattered:500 "${from[@]}" --no-panel
+    render scattered:500 "${from[@]}" -o a.exr
+    render scattered:500 "${from[@]}" --solver cubic -o b.exr
+    "$difference" a.exr b.exr difference.png 2.5e-2 >difference.log || complain "the difference: $(cat difference.log)"
+fi
+
+# ---- Samples that come one by one at rest are those of --aa.
+view $'rest\ntell one\nset aa 4\nrest\ntell four\nsave rest.png\nquit' scattered:500 "${size[@]}"
+render scattered:500 "${size[@]}" --aa 4 -o expected.png
+same rest.png expected.png "samples that came one by one"
+drawn() { sed -n "s/^$1: drew \([0-9]*\),.*/\1/p" log; }
+[[ $(drawn four) -ge $(($(drawn one) + 4)) ]] || complain "samples do not come one by one: $(cat log)"
+
+# ---- What takes longer than one has patience for stays coarse until it is asked for.
+view $'rest\ntell first\nset method fbvh\nrest\ntell set\nwhole\ntell whole\ncompare divider\nrest\ntell two
+other fbvh:exact\nrest\ntell other\nsave whole.png\ntell saved\nquit' scattered:500 "${size[@]}" --patience 0.0001
+for word in first set two other; do
+    grep -q "^$word: .* 60x45 of 320x240" log || complain "$word: not coarse: $(cat log)"
+done
+grep -q '^whole: .* 320x240 of 320x240' log || complain "not whole: $(cat log)"
+[[ $(grep -c 'Return draws it' log) -eq 4 ]] || complain "not told: $(cat log)"
+render scattered:500 "${size[@]}" --method fbvh -o expected.png
+same whole.png expected.png "what was coarse until it was saved"
+
+# ---- While it moves the resolution drops, and comes back at rest.
+view $'rest\nspin 1\nspin 1.5\nrest\ntell still\nquit' drop:20000 --size 800x600
+moving=$(sed -n 's/^spin: .* at last \([0-9]*\)x.*/\1/p' log)
+[[ ${moving:-800} -lt 800 ]] || complain "the resolution does not drop: $(cat log)"
+grep -q '^still: .* 800x600 of 800x600' log || complain "the resolution does not come back: $(cat log)"
+
+# ---- A scene tells what it cannot say, and takes no name that is not UTF-8.
+view $'save left.json\nset look glass\nsave said.json\nquit' scattered:50 "${size[@]}" --method fbvh --tree no-fit --secant-steps 9
+grep -q '^saved left.json without what a scene cannot say: --tree, --secant-steps' log || complain "not told: $(cat log)"
+name=$'b\xe4r.csv'
+printf '0,0,0\n' >"$name"
+view $'save none.json\nsave some.png\nquit' "$name" "${size[@]}" --radius 1
+grep -a -q -F 'a scene is UTF-8 text' log || complain "a name that JSON cannot hold: $(cat log)"
+[[ -e some.png && ! -e none.json ]] || complain "saved a scene that names no file"
 
 # ---- Shaders read again: a bad one is told, and the one before draws on.
 mkdir glsl

@@ -40,4 +40,46 @@ render_copied log expected.png
 same meniscus.png expected.png "the picture after a hand's work"
 ! grep -q -e 'GL error' -e 'the driver gave' log || complain "a hand: $(cat log)"
 [[ ! -s errors ]] || complain "a hand: $(cat errors)"
+
+# ---- The panel and the divider by the mouse; a key that is held switches once; letters and signs as they are typed.
+# told PATTERN WHAT: it is in the log, by and by.
+told() {
+    for _ in $(seq 100); do
+        if grep -q -e "$1" log; then return; fi
+        sleep 0.1
+    done
+    complain "$2: $(cat log)"
+}
+view $'panel\nquit' scattered:30 "${size[@]}"
+panel=yes
+! grep -q 'has no panel' log || panel=
+"$program" view scattered:500 --size 900x700 --eye 0.5,0.5,3 --look-at 0.5,0.5,0.5 >log 2>errors &
+viewer=$!
+window=$(timeout 20 xdotool search --sync --onlyvisible --name '^scattered:500' | head -n 1)
+hand windowfocus "$window"
+if [[ -n $panel ]]; then
+    hand mousemove --window "$window" 80 44 click 1 # what there is for a method
+    hand mousemove --window "$window" 80 85 click 1 # the second of them
+    hand key ctrl+c
+    told '--method=list' "the panel's method"
+    grep -q -e '--eye=0.5,0.5,3 ' log || complain "a click on the panel moves the camera: $(cat log)"
+    hand key Tab
+fi
+hand key b
+hand mousemove --window "$window" 450 350 mousedown 1
+hand mousemove_relative 100 0
+hand mousemove_relative 80 0 mouseup 1
+told '^divider at 0.700' "the divider does not follow the mouse"
+hand keydown l
+told '^the sequence' "a key does nothing"
+sleep 1
+hand keyup l
+[[ $(grep -c '^the sequence' log) -eq 1 ]] || complain "a key that is held switches to and fro: $(cat log)"
+hand key equal
+hand key ctrl+c
+told '--eye=0.5,0.5,2.5 ' "= does not zoom"
+xdotool key ctrl+q
+wait $viewer || complain "a mouse: status $?: $(cat errors log)"
+! grep -q -e 'GL error' -e 'the driver gave' -e '^error' log || complain "a mouse: $(cat log)"
+[[ ! -s errors ]] || complain "a mouse: $(cat errors)"
 exit $wrong

@@ -3,6 +3,7 @@
 # byte, with what `render` draws through a GLFW context too.
 set -euo pipefail
 program=$(realpath "$1")
+difference=${2:+$(realpath "$2")} # the program that compares one with two renders; none: that is left out
 for tool in Xvfb xdotool; do
     command -v $tool >/dev/null || { echo "skipped: no $tool"; exit 77; }
 done
@@ -10,6 +11,7 @@ source=$(dirname "$(realpath "$0")")/../..
 folder=$(mktemp -d)
 export XDG_CACHE_HOME=$folder/cache TMPDIR=$folder
 wrong=0
+size=(--size 320x240)
 Xvfb -displayfd 1 -screen 0 1280x1024x24 -nolisten tcp >"$folder/display" 2>"$folder/xvfb.log" &
 server=$!
 trap 'kill $server 2>/dev/null; wait $server 2>/dev/null || true; rm -rf "$folder"' EXIT
