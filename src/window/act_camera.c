@@ -98,7 +98,8 @@ mns_status action_widen(viewer *v, const words *w, mns_error *error)
 
 mns_status action_drag(viewer *v, const words *w, mns_error *error)
 {
-    (void)error;
+    if (!(w->number[0] >= 0 && w->number[0] <= 2))
+        return status_fail(error, MNS_ERROR_USAGE, "drag %.80s: expected button 0, 1 or 2", w->text);
     events_move(v, w->number[1], w->number[2]);
     events_press(v, (int)w->number[0], true, 0);
     events_move(v, w->number[3], w->number[4]);

@@ -91,7 +91,7 @@ mns_status action_scale(viewer *v, const words *w, mns_error *error)
 {
     if (!(w->number[0] > 0))
         return status_fail(error, MNS_ERROR_USAGE, "scale %s: expected a factor above 0", w->text);
-    v->scale = divider_scale(v) * w->number[0];
+    v->scale = fmax(1e-30, fmin(1e30, divider_scale(v) * w->number[0]));
     viewer_tell(v, "difference: full colour at %.3g", v->scale);
     v->stale = true;
     return MNS_OK;

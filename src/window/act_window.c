@@ -7,6 +7,7 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <math.h>
 
 mns_status action_play(viewer *v, const words *w, mns_error *error)
 {
@@ -22,24 +23,31 @@ mns_status action_pause_it(viewer *v, const words *w, mns_error *error)
     return MNS_OK;
 }
 
+/* A number of frames, however large it was written. */
+static long frames_of(double number)
+{
+    return (long)fmax(-1e9, fmin(1e9, number));
+}
+
 mns_status action_step(viewer *v, const words *w, mns_error *error)
 {
     (void)error;
     long from = v->now->wanted >= 0 ? v->now->wanted : v->now->timeline.shown;
-    frames_go(v, from + (long)w->number[0]);
+    frames_go(v, from + frames_of(w->number[0]));
     return MNS_OK;
 }
 
 mns_status action_frame(viewer *v, const words *w, mns_error *error)
 {
     (void)error;
-    frames_go(v, (long)w->number[0]);
+    frames_go(v, frames_of(w->number[0]));
     return MNS_OK;
 }
 
 mns_status action_speed(viewer *v, const words *w, mns_error *error)
 {
-    (void)error;
+    if (!(w->number[0] > 0))
+        return status_fail(error, MNS_ERROR_USAGE, "speed %.40s: expected a factor above 0", w->text);
     timeline_speed(&v->now->timeline, v->now->timeline.speed * w->number[0], clock_ms());
     viewer_tell(v, "speed %g: %g frames a second", v->now->timeline.speed,
                 v->now->timeline.speed * v->now->timeline.rate);
@@ -59,11 +67,11 @@ mns_status action_loop(viewer *v, const words *w, mns_error *error)
 
 mns_status action_size(viewer *v, const words *w, mns_error *error)
 {
-    int width = (int)w->number[0], height = (int)w->number[1];
-    if (!(width > 0 && height > 0 && width <= 16384 && height <= 16384))
+    double width = w->number[0], height = w->number[1];
+    if (!(width >= 1 && height >= 1 && width <= 16384 && height <= 16384))
         return status_fail(error, MNS_ERROR_USAGE, "size %.40s: expected two numbers from 1 to 16384",
                            w->text);
-    viewer_set_size(v, width, height);
+    viewer_set_size(v, (int)width, (int)height);
     return MNS_OK;
 }
 

@@ -7,6 +7,7 @@
 
 /* How long a camera rests before the picture is drawn whole. */
 static const double REST_MS = 150;
+enum { ASKED_MOST = 2 };
 
 mns_status drawing_begin(viewer *v, mns_error *error)
 {
@@ -54,7 +55,8 @@ void drawing_change(viewer *v, bool moves)
 {
     v->stage = STAGE_CHANGED;
     v->failed = false;
-    v->is_coarse = v->asked_twice = false;
+    v->is_coarse = false;
+    v->asked = 0;
     v->difference.is_known = false;
     v->hover.is_known = false;
     check_forget(&v->check);
@@ -117,7 +119,7 @@ static mns_status draw(viewer *v, int step, int samples, int first, mns_error *e
         options.samples = samples;
         options.sample_first = first;
         options.sample_count = samples > 1;
-        options.measure = options.measure || v->asked_twice;
+        options.measure = options.measure || v->asked;
         status = draw_side(v, i, &view, &options, error);
     }
     if (status) subject_settle(v); /* a side may not have come to take its tree */
@@ -197,18 +199,18 @@ static double whole_ms(const viewer *v)
 }
 
 /* What takes long is drawn whole only when it is asked for: nothing else happens meanwhile. The first picture
- * by other settings may have waited for a compiler or a tree, so that what it says is asked
- * once more, by its phases. */
+ * by other settings may have waited for a compiler or a tree, and the first whose phases are
+ * measured for another compiler, so that what they say is asked once more. */
 static mns_status draw_whole(viewer *v, mns_error *error)
 {
     double ms = v->patient ? 0 : whole_ms(v);
-    if (v->asked_twice) pace_expect(&v->pace, ms, fixed_ms(v));
+    if (v->asked == ASKED_MOST) pace_expect(&v->pace, ms, fixed_ms(v));
     if (ms <= v->settings->patience_ms) {
-        v->asked_twice = false;
+        v->asked = 0;
         return draw_sample(v, 0, error);
     }
-    if (!v->asked_twice) {
-        v->asked_twice = true;
+    if (v->asked < ASKED_MOST) {
+        v->asked++;
         return draw_coarse(v, v->coarse_step, error);
     }
     v->stage = STAGE_DONE;
@@ -303,7 +305,7 @@ void drawing_show(viewer *v)
 bool drawing_point(viewer *v, double x, double y, vec3 *point)
 {
     const side *s = &v->side[0];
-    if (!s->is_drawn || v->failed) return false;
+    if (!s->is_drawn || v->failed || !(x >= 0 && y >= 0 && x < v->width && y < v->height)) return false;
     const mns_stats *stats = mns_frame_stats(s->frame);
     double t =
         screen_distance(&v->screen, s->frame, stats->width, stats->height,

@@ -113,7 +113,7 @@ typedef struct viewer {
     bool patient;        /* however long it takes, it is drawn whole */
     bool is_coarse;      /* it is left as it was drawn while it moved */
     bool is_new;         /* other settings or another input: what it costs is not known */
-    bool asked_twice;    /* how long it would take */
+    int asked;           /* how often, how long it would take */
     int coarse_step;     /* the scale of the last coarse picture, see pace.h */
     bool stale;          /* the window shows less than is drawn */
     int polish;          /* how often more to show the panel before it rests */
