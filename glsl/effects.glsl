@@ -2,13 +2,20 @@
 // shader. Without rays (RAYS_NOW) it is done at once. With them an invocation leads the walk of an entry of a list: it traces a ray, uses
 // what was found, looks for the next, and goes on until the walk ends, or the dispatch has done enough, or float cannot decide; that ray
 // is asked in doubles (effects_resolve.glsl). What waits is listed anew by every dispatch, so that groups are full.
+//
+// Dispatches of two programs take turns where bounds can tell of rays: RAYS_ANY goes on as long as they do, and the other casts the ray
+// that it was left at. In one text every lane would pay for both.
+#ifdef RAYS_NOW
+#define VIEW_LOOSE
+#define PATHS_LOOSE
+#endif
 #include "real.glsl"
 #define UINT uint
 #include "density.glsl"
 #include "optics.glsl"
 #include "samples.glsl"
 #include "view.glsl"
-#if defined(COLORS) && !(defined(COLOR_LABELS) && defined(RAYS_NOW))
+#if defined(COLORS) && !(defined(COLOR_LABELS) && defined(RAYS_NOW) && !defined(RAYS_ANY))
 #include "color.glsl"
 #endif
 #define LIGHTING_BLOCK 2
@@ -40,13 +47,23 @@ void main()
 #endif
 #include "tree.glsl"
 #include "chord.glsl"
+#if defined(RAYS_ANY) || defined(BOUNDS_FIRST)
+#define BOUNDS_TELL (path_asks != ASKS_PATH && !path_inwards) // they may, of path_ray
+#else
+#define BOUNDS_TELL false
+#endif
+#ifdef RAYS_ANY
+const int PIECE_NONE = 0, PIECE_HIT = 1, PIECE_OPEN = 2, PIECE_CAP = 3, PIECE_LATER = 4;
+#include "tree_any.glsl"
+#else
 #include "active_leaf.glsl"
 #define ROOT_MATTERS (path_asks == ASKS_PATH)
 #include "exact.glsl"
 #include "tree_cast.glsl"
 #include "surface.glsl"
+#endif
 
-// What path_ray met; PIECE_OPEN and PIECE_CAP: not known.
+// What path_ray met; PIECE_OPEN and PIECE_CAP: not known; PIECE_LATER: to be asked by the other program.
 struct Answer {
     int found;
     float t;
@@ -54,18 +71,29 @@ struct Answer {
     vec3 albedo;
 };
 
-Answer ask()
+#ifdef RAYS_ANY
+Answer ask(bool first, out int work)
 {
+    Answer answer = Answer(PIECE_LATER, 0.0, vec3(0.0), vec3(0.0));
+    work = 0;
+    if (BOUNDS_TELL) answer.found = tree_any(path_ray, path_limit, work);
+    return answer;
+}
+#else
+Answer ask(bool first, out int work)
+{
+    Answer answer = Answer(PIECE_LATER, 0.0, vec3(0.0), vec3(0.0));
+    work = 0;
+    if (!first && BOUNDS_TELL) return answer;
     view_reach = sqrt(dot(path_ray.start, path_ray.start));
     Cast got = tree_cast(path_ray, 0.0, path_limit, path_inwards ? 1.0 : -1.0);
-    Answer answer = Answer(got.found, got.t, vec3(0.0), vec3(0.0));
+    work = cast_work;
+    answer.found = got.found;
+    answer.t = got.t;
 #ifdef PATHS_ON
     if (path_asks != ASKS_PATH || got.found != PIECE_HIT) return answer;
 #ifdef OVERLAPS
-    float stop;
-    slots_fill(path_ray, tree_leaf_at(got.leaf, got.t, got.t), stop);
-    slot_count = min(slot_count, SLOTS);
-    active_from = got.t;
+    cast_gather(path_ray, got);
 #endif
     Surface surface = surface_at(path_ray, got.t);
     bool settled = abs(surface.shift) <= 1.0e-4 * surface.radius && surface.blur <= SETTLED * (got.t + view_reach + surface.radius);
@@ -76,6 +104,7 @@ Answer ask()
 #endif
     return answer;
 }
+#endif
 
 const int PATH_BUDGET = WALK_BUDGET / 6; // work after which a walk goes on in another dispatch
 
@@ -88,8 +117,11 @@ uint walk(int most, out uint rays)
     do {
         state = REDO_DONE;
         if (!path_next()) break;
-        Answer answer = ask();
-        work += cast_work + 16;
+        int cost;
+        Answer answer = ask(rays == 0u, cost);
+        work += cost + 16;
+        state = REDO_FLOAT;
+        if (answer.found == PIECE_LATER) break;
         state = REDO_DOUBLE;
         if (answer.found != PIECE_OPEN && answer.found != PIECE_CAP) {
             rays++;
@@ -104,11 +136,12 @@ void main()
 {
     uint index = path_index();
     if (index >= path_lists.w) return;
-    uvec4 entry = redo_entry[path_lists.x + index];
+    uvec4 entry = uvec4(redo_entry[path_lists.x + index].xy, 0u, 0u);
     ivec2 at = ivec2(entry.x & 0xffffu, entry.x >> 16u);
     bool alone = (entry.y & ENTRY_ALONE) != 0u;
+    uint held = entry.y & ENTRY_HELD;
     uint rays;
-    if ((entry.y & ENTRY_HELD) != 0u)
+    if (held != 0u)
         path_load(at, entry.y);
     else
         begin(at);
@@ -120,10 +153,11 @@ void main()
         state = alone ? REDO_DOUBLE : REDO_FLOAT;
     } else {
         atomicAdd(count_spare, rays);
-        entry.y = (entry.y & ENTRY_SLOT) | ENTRY_HELD;
+        if (rays > 0u || state == REDO_DOUBLE) held = ENTRY_HELD;
+        entry.y = (entry.y & ENTRY_SLOT) | held;
         if (state == REDO_DONE)
             finish(at);
-        else
+        else if (held != 0u)
             path_save(entry.y);
     }
     if (state == REDO_FLOAT) entry_wait(entry);

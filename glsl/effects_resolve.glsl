@@ -114,7 +114,7 @@ bool ray_again(ivec2 at)
             place_turn(leaf_ray.way, surface.normal);
         } else {
             path_ray.start += s * path_ray.way;
-            leaf_ray.start = path_ray.start;
+            take_ray(path_ray);
         }
     }
     return true;

@@ -1,7 +1,4 @@
 // The pieces of the true field: exact polynomials where the kernel is one along a ray, proven bounds elsewhere.
-#ifdef PATHS
-const REAL LEAVE_DOUBT = NUM(16.0); // what f may be off L where a ray leaves the surface, in roundings
-#endif
 #if KERNEL <= DENSITY_WYVILL
 #if KERNEL == DENSITY_POLY2
 #define DEGREE 4

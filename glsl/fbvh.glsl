@@ -61,10 +61,7 @@ void main()
     int found = got.found;
     if (found == PIECE_HIT) {
 #ifdef OVERLAPS
-        float stop;
-        slots_fill(ray, tree_leaf_at(got.leaf, got.t, got.t), stop);
-        slot_count = min(slot_count, SLOTS);
-        active_from = got.t;
+        cast_gather(ray, got);
 #endif
         Surface surface = surface_at(ray, got.t);
 #if SOLVER == SOLVER_EXACT

@@ -9,6 +9,7 @@
 #define PATHS_ON
 #endif
 
+const REAL LEAVE_DOUBT = NUM(16.0); // what f may be off L where a ray leaves the surface, in roundings
 const int LIGHT_HEAD = 0, LIGHT_DIRECTIONAL = 1, LIGHT_AREA = 3;
 
 // The pixel so far.
@@ -114,7 +115,7 @@ void place_take(uint path, REAL3 way, REAL3 outward, REAL length, vec3 share, uv
 
 void light_done(vec3 to_light, float share)
 {
-    vec4 radiance = light_radiance[place_light];
+    vec4 radiance = light_sent(place_light);
     if (int(radiance.w) != LIGHT_HEAD) place_shadow += share;
     vec2 given = lighting_of(vec3(place_normal), vec3(place_viewer), to_light);
     place_shaded += lighting.y * share * given.x * radiance.rgb;
@@ -138,33 +139,25 @@ REAL3 place_turned(REAL3 to, REAL3 v)
 #endif
 
 #ifdef SOFT_SHADOWS
-// The next ray to a sphere of light in the direction `to`. False: none is left, or this one leaves below the surface.
-bool light_sample(REAL3 to, REAL away)
+// The next ray to the present light, a sphere in the direction `to`. False: it leaves below the surface.
+bool light_sample(REAL3 to, REAL away, REAL ratio)
 {
-    uint count = uint(path_counts.z);
-    REAL ratio = REAL(light_place[place_light].w) / away;
-    if (ratio >= NUM(1.0) || place_sample == count) {
-        light_done(vec3(to), ratio >= NUM(1.0) ? 1.0 : place_seen / float(count));
-        return false;
-    }
     uint key = place_key(1u + place_light);
-    uint index = path_levels.w * count + place_sample;
+    uint index = path_levels.w * uint(path_counts.z) + place_sample;
     REAL u = samples_number(key, index, 0);
     REAL v = samples_number(key, index, 1);
     REAL width = samples_cone_width(ratio);
     path_ray.way = place_turned(to, REAL3(samples_cone(0, width, u, v), samples_cone(1, width, u, v), samples_cone(2, width, u, v)));
     path_limit = away * samples_sphere_distance(ratio, u * width);
-    if (dot(path_ray.way, place_normal) > NUM(0.0)) return true;
-    place_sample++;
-    return false;
+    return dot(path_ray.way, place_normal) > NUM(0.0);
 }
 #endif
 
-// The next ray to the present light. False: it needs none, and is done, or not this one.
+// The next ray to the present light. False: it needs none, or no more, and is done, or not this one.
 bool light_next()
 {
-    int kind = int(light_radiance[place_light].w);
-    REAL3 to = REAL3(light_place[place_light].xyz);
+    int kind = int(light_sent(place_light).w);
+    REAL3 to = REAL3(light_at(place_light).xyz);
     REAL away = FAR_AWAY;
     if (kind != LIGHT_DIRECTIONAL) {
         to -= place_at;
@@ -172,34 +165,29 @@ bool light_next()
         to /= away;
     }
     bool lit = dot(place_normal, to) > NUM(0.0);
+    float share = lit ? 1.0 : 0.0;
 #ifdef SHADOWS
     if (lit && kind != LIGHT_HEAD) {
         PATH_ASKS(ASKS_LIGHT);
         path_ray.start = place_at;
         path_inwards = place_inside;
-#ifdef SOFT_SHADOWS
-        if (kind == LIGHT_AREA) return light_sample(to, away);
-#endif
         path_ray.way = to;
         path_limit = away;
-        return true;
-    }
-#endif
-    light_done(vec3(to), lit ? 1.0 : 0.0);
-    return false;
-}
-
-// Takes the answer to the light's ray: 1 where it met nothing, else 0.
-void light_use(float seen)
-{
+        uint count = 1u;
 #ifdef SOFT_SHADOWS
-    if (int(light_radiance[place_light].w) == LIGHT_AREA) {
-        place_seen += seen;
-        place_sample++;
-        return;
+        REAL ratio = REAL(light_at(place_light).w) / away;
+        if (kind == LIGHT_AREA) count = ratio < NUM(1.0) ? uint(path_counts.z) : 0u;
+        if (kind == LIGHT_AREA && place_sample < count && !light_sample(to, away, ratio)) {
+            place_sample++;
+            return false;
+        }
+#endif
+        if (place_sample < count) return true;
+        if (count > 0u) share = place_seen / float(count);
     }
 #endif
-    light_done(vec3(path_ray.way), seen);
+    light_done(vec3(to), share);
+    return false;
 }
 
 #ifdef OCCLUSION
@@ -317,13 +305,14 @@ bool path_next()
             found = true;
         } else
 #endif
-        if (place_light < uint(path_counts.x)) {
-            found = light_next();
-        } else {
+        {
+            if (place_light < uint(path_counts.x)) found = light_next();
+            if (!found && place_light >= uint(path_counts.x)) {
 #ifdef OCCLUSION
-            found = occlusion_next();
+                found = occlusion_next();
 #endif
-            if (!found) place_finish();
+                if (!found) place_finish();
+            }
         }
     }
     return found;
@@ -332,13 +321,9 @@ bool path_next()
 // Takes the answer to path_ray: nothing, or a surface after `length`, whose outward normal and colour matter to a path alone.
 void path_use(bool hit, REAL length, REAL3 outward, vec3 albedo)
 {
-    float seen = hit ? 0.0 : 1.0;
-#ifdef SHADOWS
-    if (path_asks == ASKS_LIGHT) light_use(seen);
-#endif
-#ifdef OCCLUSION
-    if (path_asks == ASKS_OCCLUSION) {
-        place_seen += seen;
+#if defined(SHADOWS) || defined(OCCLUSION)
+    if (path_asks != ASKS_PATH) {
+        place_seen += hit ? 0.0 : 1.0;
         place_sample++;
     }
 #endif

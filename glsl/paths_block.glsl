@@ -1,6 +1,14 @@
 // The camera, the lights and the numbers of light's ways beyond the first hit; what both the list of their pixels and the walks read.
+//
+// PATHS_LOOSE: the same, but for the lights after the first, by uniforms of their own, as of the view (VIEW_LOOSE).
 
 #define PATH_LIGHTS 256
+
+#ifdef PATHS_LOOSE
+#define PATHS_MEMBERS paths
+#else
+#define PATHS_MEMBERS
+#endif
 
 layout(std140, binding = 1) uniform Paths {
     dvec4 path_corner; // raw direction at pixel (0, 0)
@@ -17,7 +25,46 @@ layout(std140, binding = 1) uniform Paths {
     ivec4 path_counts; // lights, those that cast shadows, rays a pixel and sphere of light, rays of the ambient light
     uvec4 path_levels; // of mirroring, surfaces that light passes through; seed, index of the pixel's sample
     ivec4 path_size;   // of the frame
-};
+} PATHS_MEMBERS;
+
+#ifdef PATHS_LOOSE
+layout(location = 24) uniform dvec4 path_corner;
+layout(location = 25) uniform dvec4 path_step_x;
+layout(location = 26) uniform dvec4 path_step_y;
+layout(location = 27) uniform dvec4 path_eye;
+layout(location = 28) uniform dvec4 path_optics;
+layout(location = 29) uniform dvec4 light_first;
+layout(location = 30) uniform vec4 light_first_radiance;
+layout(location = 31) uniform vec4 environment_right;
+layout(location = 32) uniform vec4 environment_up;
+layout(location = 33) uniform vec4 environment_back;
+layout(location = 34) uniform vec4 path_absorption;
+layout(location = 35) uniform ivec4 path_counts;
+layout(location = 36) uniform uvec4 path_levels;
+layout(location = 37) uniform ivec4 path_size;
+#endif
+
+dvec4 light_at(uint light)
+{
+#if !defined(PATHS_LOOSE)
+    return light_place[light];
+#elif defined(LIGHTS_MANY)
+    return light == 0u ? light_first : paths.light_place[light];
+#else
+    return light_first;
+#endif
+}
+
+vec4 light_sent(uint light)
+{
+#if !defined(PATHS_LOOSE)
+    return light_radiance[light];
+#elif defined(LIGHTS_MANY)
+    return light == 0u ? light_first_radiance : paths.light_radiance[light];
+#else
+    return light_first_radiance;
+#endif
+}
 
 #define PATH_NOTHING uintBitsToFloat(0x7f800000u) // how far a ray goes that meets nothing
 

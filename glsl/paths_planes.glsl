@@ -1,5 +1,5 @@
-// What light's ways beyond the first hit are read from and written to. One pixel an invocation: of a region, or of the list of those
-// that see a surface.
+// What light's ways beyond the first hit are read from and written to. One invocation a pixel of a region (effects_list.glsl), or an
+// entry of a list.
 
 layout(local_size_x = 64) in;
 layout(location = 3) uniform ivec4 path_region; // x, y, past x, past y
@@ -20,7 +20,7 @@ void paths_write(ivec2 at, vec4 lit, vec4 terms, bool settled)
 {
     imageStore(plane_lit, at, lit);
     imageStore(plane_terms, at, terms);
-    imageStore(plane_settled, at, vec4(settled ? 1.0 : 0.0));
+    if (!settled) imageStore(plane_settled, at, vec4(0.0)); // it was cleared to 1
 }
 
 uint path_index()

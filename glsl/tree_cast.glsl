@@ -244,3 +244,14 @@ Cast tree_cast(Ray ray, float begin, float limit, float side)
 #endif
     return best;
 }
+
+#ifdef OVERLAPS
+// Fills the slots with what is active at a hit: in an overlapping tree other leaves were met since.
+void cast_gather(Ray ray, Cast got)
+{
+    float stop;
+    slots_fill(ray, tree_leaf_at(got.leaf, got.t, got.t), stop);
+    slot_count = min(slot_count, SLOTS);
+    active_from = got.t;
+}
+#endif

@@ -150,22 +150,24 @@ int resolve_walk(REAL limit, REAL side, inout REAL s)
 {
     bool fresh = true;           // no step yet in this dispatch
     bool begun = s == RAY_BEGIN; // nothing has been walked: no face lies behind
+    bool back = !begun;          // taken up again: the leaf behind is to be known, whose face may be the hit
     while (fresh || leaf_work < WALK_BUDGET) {
-        Stretch stretch = stretch_after(s, limit);
+        Stretch stretch = stretch_after(back ? s - NUM(1.0e-9) * abs(s) : s, limit);
         bool gap = stretch.begin > s;
 #if defined(EYE_INSIDE) || defined(EYE_ON) || defined(BOTH_SIDES)
         // From inside, what no leaf knows lies outside: the way out is here, but for rounding.
         if (side > NUM(0.0) && gap && s < limit) {
             active_from = s;
 #ifdef MNS_DOUBLE
-            return begun ? PIECE_OPEN : PIECE_HIT;
+            return begun || back ? PIECE_OPEN : PIECE_HIT;
 #else
             return PIECE_OPEN;
 #endif
         }
 #endif
         if (stretch.begin >= limit || stretch.begin == FAR_AWAY) return PIECE_NONE;
-        s = stretch.begin;
+        s = max(s, stretch.begin);
+        back = false;
         leaf_first = stretch.first;
         leaf_past = stretch.past;
         REAL leap = FAR_AWAY;

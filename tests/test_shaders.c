@@ -30,6 +30,7 @@ static const char *const shader_names[SHADER_COUNT] = {
     [SHADER_TREE_RESOLVE] = "tree-resolve",
     [SHADER_EFFECTS_LIST] = "effects-list",
     [SHADER_EFFECTS_PLAIN] = "effects-plain",
+    [SHADER_EFFECTS_ANY] = "effects-any",
     [SHADER_EFFECTS] = "effects-rays",
     [SHADER_EFFECTS_RESOLVE] = "effects-resolve",
     [SHADER_SHADE] = "shade",

@@ -195,7 +195,8 @@ typedef enum plan_shader {
     SHADER_TREE_RESOLVE, /* and in doubles */
     SHADER_EFFECTS_LIST,
     SHADER_EFFECTS_PLAIN,   /* effects.glsl without rays */
-    SHADER_EFFECTS,         /* effects.glsl with rays */
+    SHADER_EFFECTS_ANY,     /* with those rays alone that bounds can tell of */
+    SHADER_EFFECTS,         /* with all rays */
     SHADER_EFFECTS_RESOLVE, /* and in doubles */
     SHADER_SHADE,
     SHADER_HOST_DEPTH,

@@ -46,6 +46,9 @@ static const shader_part parts[SHADER_COUNT] = {
     [SHADER_TREE_RESOLVE] = {NULL, NULL, "fbvh_resolve.glsl", READS_TREE},
     [SHADER_EFFECTS_LIST] = {NULL, NULL, "effects_list.glsl", FEATURE_ENVIRONMENT | FEATURE_SKY},
     [SHADER_EFFECTS_PLAIN] = {NULL, NULL, "effects.glsl", READS_LIT},
+    [SHADER_EFFECTS_ANY] = {NULL, NULL, "effects.glsl",
+                            READS_WALK | (READS_PATH & ~(uint64_t)(FEATURE_OVERLAPS | FEATURE_EYE_INSIDE |
+                                                                   FEATURE_EYE_ON))},
     [SHADER_EFFECTS] = {NULL, NULL, "effects.glsl", READS_WALK | READS_PATH},
     [SHADER_EFFECTS_RESOLVE] = {NULL, NULL, "effects_resolve.glsl",
                                 (READS_WALK | READS_PATH) & ~(uint64_t)FEATURE_TEXELS},
@@ -160,6 +163,15 @@ int plan_path_stack(const mns_plan *plan)
     return path_stack(plan, plan->features);
 }
 
+/* Whether bounds are asked first: in leaves that know all of f, from outside, and of many rays a surface or
+ * where a walk ends with them, for to leave it costs what they spare of one ray. */
+static bool bounds_tell(uint64_t f)
+{
+    bool on = f & (FEATURE_MIRROR | FEATURE_REFRACTION);
+    return f & (FEATURE_OCCLUSION | FEATURE_SOFT_SHADOWS | (on ? 0 : FEATURE_SHADOWS)) &&
+           !(f & (FEATURE_OVERLAPS | FEATURE_EYE_INSIDE));
+}
+
 /* What light's ways beyond the first hit are specialised by; returns the features that are left to tell. */
 static uint64_t add_paths(const mns_plan *plan, plan_shader shader, char *defines, uint64_t f)
 {
@@ -167,10 +179,16 @@ static uint64_t add_paths(const mns_plan *plan, plan_shader shader, char *define
     add(defines, "PATH_STACK", path_stack(plan, f));
     if (shader == SHADER_EFFECTS_PLAIN) return f;
     add(defines, "RAYS_NOW", 1);
-    if (f & (FEATURE_EYE_INSIDE | FEATURE_EYE_ON | FEATURE_REFRACTION)) add(defines, "BOTH_SIDES", 1);
+    if (plan->look.light_count > 1) add(defines, "LIGHTS_MANY", 1);
+    if (f & (FEATURE_EYE_INSIDE | FEATURE_EYE_ON | FEATURE_REFRACTION) && shader != SHADER_EFFECTS_ANY)
+        add(defines, "BOTH_SIDES", 1);
     add(defines, "KERNEL", (int)(f & FEATURE_KERNEL));
     add(defines, "TREE_DEPTH", FBVH_DEPTH_MOST + 1);
-    if (shader == SHADER_EFFECTS) {
+    if (shader == SHADER_EFFECTS_ANY) {
+        add(defines, "RAYS_ANY", 1);
+        add(defines, "WALK_BUDGET", CAST_BUDGET);
+    } else if (shader == SHADER_EFFECTS) {
+        if (bounds_tell(f)) add(defines, "BOUNDS_FIRST", 1);
         add(defines, "WALK_BUDGET", CAST_BUDGET);
         add(defines, "SOLVER_EXACT", MNS_SOLVER_EXACT);
         add(defines, "SOLVER_SECANT", MNS_SOLVER_SECANT);
@@ -214,6 +232,7 @@ bool plan_needs(const mns_plan *plan, plan_shader shader)
     uint64_t f = plan->features;
     if (f & FEATURE_REFERENCE) return shader == SHADER_SHADE;
     if (shader == SHADER_EFFECTS || shader == SHADER_EFFECTS_RESOLVE) return f & FEATURE_RAYS;
+    if (shader == SHADER_EFFECTS_ANY) return f & FEATURE_RAYS && bounds_tell(f);
     if (shader == SHADER_EFFECTS_LIST) return f & FEATURE_LIT;
     if (shader == SHADER_EFFECTS_PLAIN) return f & FEATURE_LIT && !(f & FEATURE_RAYS);
     if (is_tree(shader)) return f & FEATURE_TREE;

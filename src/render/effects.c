@@ -22,14 +22,12 @@ static mns_status light_region(draw *d, list_region region, mns_error *error)
     shade_walks walks;
     shade_effects_begin(&r->passes, &r->device, d->program, region, &walks);
     while (walks.waiting || walks.waiting_wide) {
-        bool wide = !walks.waiting;
-        if (wide) {
+        if (!walks.waiting) {
             mns_status status = draw_late_program(d, SHADER_EFFECTS_RESOLVE, MNS_PHASE_EFFECTS, error);
             if (!status) status = draw_tree_low(d, MNS_PHASE_EFFECTS, error);
             if (status) return status;
         }
-        shade_effects_go_on(&r->effects, &r->trace, &r->passes, &r->device,
-                            d->program[wide ? SHADER_EFFECTS_RESOLVE : SHADER_EFFECTS], wide, &walks);
+        shade_effects_go_on(&r->effects, &r->trace, &r->passes, &r->device, d->program, &walks);
     }
     d->stats->effects_rays += walks.rays;
     d->stats->effects_undecided += walks.undecided;
@@ -68,6 +66,7 @@ mns_status draw_effects_sample(draw *d, const double jitter[2], mns_error *error
     if (status) return status;
     d->stats->effects_rays = d->stats->effects_undecided = 0;
     shade_effects_bind(&r->effects, &r->trace, &r->passes, &r->device, plan, &r->shade, &planes);
+    shade_effects_clear(&r->device, plan, f->lit_target);
     status = light_rows(d, most, error);
     draw_mark(d, MNS_PHASE_EFFECTS);
     return status;

@@ -20,11 +20,11 @@ static void drop_textures(mns_frame *f)
 {
     const GladGLContext *gl = &f->renderer->device.gl;
     GLuint textures[] = {f->t, f->normal, f->color, f->shaded, f->work, f->lit, f->terms, f->settled},
-           targets[] = {f->planes_target, f->shaded_target};
+           targets[] = {f->planes_target, f->shaded_target, f->lit_target};
     gl->DeleteTextures(sizeof textures / sizeof *textures, textures);
-    gl->DeleteFramebuffers(2, targets);
+    gl->DeleteFramebuffers(sizeof targets / sizeof *targets, targets);
     f->t = f->normal = f->color = f->shaded = f->work = f->planes_target = f->shaded_target = 0;
-    f->lit = f->terms = f->settled = 0;
+    f->lit = f->terms = f->settled = f->lit_target = 0;
 }
 
 void mns_frame_destroy(mns_frame *f)
@@ -89,6 +89,8 @@ mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
         f->lit = plane_make(gl, GL_RGBA32F, width, height);
         f->terms = plane_make(gl, GL_RGBA32F, width, height);
         f->settled = plane_make(gl, GL_R32F, width, height);
+        GLuint light[] = {f->lit, f->terms, f->settled};
+        f->lit_target = target_make(gl, light, 3);
     }
     GLuint planes[] = {f->t, f->normal, f->color};
     f->planes_target = target_make(gl, planes, color ? 3 : 2);

@@ -59,7 +59,7 @@ struct mns_frame {
     GLuint lit;                      /* with LIT: colours before the shade pass, linear, premultiplied */
     GLuint terms;   /* and the effects' terms at the first hit: shadow, occlusion, mirror.t, refract.t */
     GLuint settled; /* and 1, or 0 where some ray beyond it was undecided */
-    GLuint planes_target, shaded_target;
+    GLuint planes_target, shaded_target, lit_target;
     int width, height;
     int summed; /* samples that its colours hold; 0 where they are nobody's */
     bool has_color, has_work, has_lit;

@@ -3,6 +3,7 @@
 #include "base/color.h"
 #include "base/status.h"
 #include "effects/environment.h"
+#include "list/uniforms.h"
 #include "shade/shade.h"
 
 #include <math.h>
@@ -95,6 +96,19 @@ static void fill(effects_block *block, const mns_plan *plan, const double jitter
     block->levels[2] = e->seed, block->levels[3] = (uint32_t)sample;
 }
 
+static void keep_loose(shade_loose *loose, const effects_block *block)
+{
+    const double *wide[LOOSE_DOUBLES] = {block->corner, block->step_x, block->step_y,
+                                         block->eye,    block->optics, block->place[0]};
+    const float *narrow[LOOSE_FLOATS] = {block->radiance[0], block->right, block->up, block->back,
+                                         block->absorption};
+    for (int i = 0; i < LOOSE_DOUBLES; i++) memcpy(loose->wide[i], wide[i], sizeof loose->wide[i]);
+    for (int i = 0; i < LOOSE_FLOATS; i++) memcpy(loose->narrow[i], narrow[i], sizeof loose->narrow[i]);
+    memcpy(loose->counts, block->counts, sizeof block->counts);
+    memcpy(loose->levels, block->levels, sizeof block->levels);
+    memcpy(loose->size, block->size, sizeof block->size);
+}
+
 mns_status shade_effects_send(shade_effects *e, gl_device *device, const mns_plan *plan,
                               const double jitter[2], int sample, mns_error *error)
 {
@@ -105,7 +119,21 @@ mns_status shade_effects_send(shade_effects *e, gl_device *device, const mns_pla
     if (status) return status;
     gl->BindBuffer(GL_UNIFORM_BUFFER, e->block.id);
     gl->BufferSubData(GL_UNIFORM_BUFFER, 0, sizeof block, &block);
+    keep_loose(&e->loose, &block);
     return MNS_OK;
+}
+
+/* What glsl/paths_block.glsl has as uniforms of their own (PATHS_LOOSE), to the program in use. */
+static void send_loose(const gl_device *device, const shade_loose *loose)
+{
+    enum { UNIFORM_PATHS = 24 };
+    const GladGLContext *gl = &device->gl;
+    GLint at = UNIFORM_PATHS;
+    for (int i = 0; i < LOOSE_DOUBLES; i++) gl->Uniform4dv(at++, 1, loose->wide[i]);
+    for (int i = 0; i < LOOSE_FLOATS; i++) gl->Uniform4fv(at++, 1, loose->narrow[i]);
+    gl->Uniform4iv(at++, 1, loose->counts);
+    gl->Uniform4uiv(at++, 1, loose->levels);
+    gl->Uniform4iv(at++, 1, loose->size);
 }
 
 /* ---- The environment's map ---- */
@@ -238,6 +266,20 @@ static void clear(list_passes *p, gl_device *device, const list_counts *counts)
     gl->BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof *counts, counts);
 }
 
+void shade_effects_clear(gl_device *device, const mns_plan *plan, GLuint target)
+{
+    static const float nothing[] = {1, 1, INFINITY, INFINITY}, settled[] = {1, 0, 0, 0};
+    const GladGLContext *gl = &device->gl;
+    const double *background = plan->look.background;
+    float lit[4] = {0, 0, 0, (float)background[3]};
+    for (int c = 0; c < 3; c++) lit[c] = shade_linear(background[c]) * lit[3];
+    gl->BindFramebuffer(GL_FRAMEBUFFER, target);
+    gl->Disable(GL_SCISSOR_TEST);
+    gl->ClearBufferfv(GL_COLOR, 0, lit);
+    gl->ClearBufferfv(GL_COLOR, 1, nothing);
+    gl->ClearBufferfv(GL_COLOR, 2, settled);
+}
+
 /* One invocation for each of `count`, in groups of which GL promises so many a side. */
 static void dispatch(gl_device *device, size_t count)
 {
@@ -265,10 +307,24 @@ void shade_effects_begin(list_passes *p, gl_device *device, const GLuint program
     walks->waiting = 0;
 }
 
-void shade_effects_go_on(shade_effects *e, trace_passes *t, list_passes *p, gl_device *device, GLuint program,
-                         bool wide, shade_walks *walks)
+/* Bounds and casts take turns; what comes from doubles is tried by bounds first. */
+static plan_shader turn(const GLuint program[SHADER_COUNT], shade_walks *walks)
+{
+    if (!walks->waiting) {
+        walks->cast = false;
+        return SHADER_EFFECTS_RESOLVE;
+    }
+    bool any = program[SHADER_EFFECTS_ANY] && !walks->cast;
+    walks->cast = any;
+    return any ? SHADER_EFFECTS_ANY : SHADER_EFFECTS;
+}
+
+void shade_effects_go_on(shade_effects *e, trace_passes *t, list_passes *p, gl_device *device,
+                         const GLuint program[SHADER_COUNT], shade_walks *walks)
 {
     const GladGLContext *gl = &device->gl;
+    plan_shader shader = turn(program, walks);
+    bool wide = shader == SHADER_EFFECTS_RESOLVE;
     /* Each of the two lists is read by one dispatch and written anew, into its other half, by the same. */
     size_t *half = &walks->half[wide], count = wide ? walks->waiting_wide : walks->waiting;
     size_t from = (2 * wide + *half) * e->room;
@@ -280,7 +336,11 @@ void shade_effects_go_on(shade_effects *e, trace_passes *t, list_passes *p, gl_d
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, wide ? p->view_wide.id : p->view.id);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, t->balls.id);
     if (wide) gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, t->balls_low.id);
-    trace_use(t, device, program);
+    trace_use(t, device, program[shader]);
+    if (!wide) {
+        list_view_loose(device, p->view_now);
+        send_loose(device, &e->loose);
+    }
     gl->Uniform4ui(UNIFORM_LISTS, (GLuint)from, (GLuint)to, (GLuint)to_wide, (GLuint)count);
     dispatch(device, count);
     trace_finish(p, device, &counts);

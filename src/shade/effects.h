@@ -6,12 +6,24 @@
 
 #include <sys/stat.h>
 
+enum { LOOSE_DOUBLES = 6, LOOSE_FLOATS = 5 };
+
+/* What of the lights and numbers all walks read: uniforms of their own, in this order. */
+typedef struct shade_loose {
+    double wide[LOOSE_DOUBLES][4];
+    float narrow[LOOSE_FLOATS][4];
+    int32_t counts[4];
+    uint32_t levels[4];
+    int32_t size[4];
+} shade_loose;
+
 /* Its GL objects. Zeroed is empty. */
 typedef struct shade_effects {
     gl_buffer block, store; /* lights and numbers; walks that wait */
-    size_t room;            /* walks that can wait */
-    GLuint map;             /* the environment's */
-    char *map_name;         /* of its file, as that was when it was read: */
+    shade_loose loose;
+    size_t room;    /* walks that can wait */
+    GLuint map;     /* the environment's */
+    char *map_name; /* of its file, as that was when it was read: */
     struct timespec map_time;
     off_t map_size;
 } shade_effects;
@@ -20,6 +32,7 @@ typedef struct shade_effects {
  * was traced so far. */
 typedef struct shade_walks {
     size_t waiting, waiting_wide, half[2];
+    bool cast; /* the ray that those in float wait with is to be cast: bounds did not tell */
     uint64_t rays, undecided;
 } shade_walks;
 
@@ -29,7 +42,7 @@ typedef struct shade_planes {
 } shade_planes;
 
 /* Reads the environment's map, unless it is there as it is. Errors: as image_picture_read, UNSUPPORTED (too
- * large for the driver), GL. */
+ * large for the driver), MEMORY, GL. */
 mns_status shade_effects_map(shade_effects *e, gl_device *device, const mns_plan *plan, mns_error *error);
 /* Sends what one sample's light hangs on. Errors: MEMORY. */
 mns_status shade_effects_send(shade_effects *e, gl_device *device, const mns_plan *plan,
@@ -42,12 +55,15 @@ mns_status shade_effects_reserve(shade_effects *e, list_passes *p, gl_device *de
 /* Binds all that the passes read and write; `shading` is filled by shade_send. */
 void shade_effects_bind(shade_effects *e, trace_passes *t, list_passes *p, gl_device *device,
                         const mns_plan *plan, const gl_buffer *shading, const shade_planes *planes);
+/* Fills the planes of `target` (lit, terms, settled) with what pixels have that see no surface. */
+void shade_effects_clear(gl_device *device, const mns_plan *plan, GLuint target);
 /* Begins the walks of a region's pixels. */
 void shade_effects_begin(list_passes *p, gl_device *device, const GLuint program[SHADER_COUNT],
                          list_region region, shade_walks *walks);
-/* Goes on with all that wait in float; or with those that wait for doubles (`wide`, effects_resolve.glsl). */
-void shade_effects_go_on(shade_effects *e, trace_passes *t, list_passes *p, gl_device *device, GLuint program,
-                         bool wide, shade_walks *walks);
+/* Goes on with all that wait in float; or where none does, with those that wait for doubles, for which
+ * SHADER_EFFECTS_RESOLVE must be there. */
+void shade_effects_go_on(shade_effects *e, trace_passes *t, list_passes *p, gl_device *device,
+                         const GLuint program[SHADER_COUNT], shade_walks *walks);
 void shade_effects_free(shade_effects *e, gl_device *device);
 
 #endif
