@@ -179,6 +179,22 @@ static void pace_leaves_pixels_that_cost_little(void **state)
     assert_float_equal(p.fixed_ms, 200, 1e-6);
 }
 
+/* What a small picture says of the whole one lowers the size, and never raises it. */
+static void pace_follows_what_is_expected(void **state)
+{
+    (void)state;
+    pace p;
+    pace_begin(&p, 1);
+    pace_expect(&p, 10, 0);
+    assert_int_equal(p.step, PACE_STEPS);
+    pace_expect(&p, 4 * p.target_ms, 0);
+    assert_int_equal(p.step, PACE_STEPS / 2);
+    pace_expect(&p, 10, 0);
+    assert_int_equal(p.step, PACE_STEPS / 2);
+    pace_expect(&p, 1e6, 1000); /* the pixels get a quarter of what hangs on none */
+    assert_int_equal(p.step, PACE_LEAST);
+}
+
 static void a_sequence_keeps_its_beat(void **state)
 {
     (void)state;
@@ -350,6 +366,7 @@ int main(void)
         cmocka_unit_test(field_of_view_keeps_the_size_at_the_target),
         cmocka_unit_test(pace_drops_and_comes_back),
         cmocka_unit_test(pace_leaves_pixels_that_cost_little),
+        cmocka_unit_test(pace_follows_what_is_expected),
         cmocka_unit_test(a_sequence_keeps_its_beat),
         cmocka_unit_test(what_comes_too_late_is_dropped_and_told),
         cmocka_unit_test(two_frames_are_on_their_way),

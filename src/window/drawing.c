@@ -58,7 +58,7 @@ void drawing_change(viewer *v, bool moves)
     v->is_coarse = false;
     v->asked = 0;
     v->difference.is_known = false;
-    v->hover.is_known = false;
+    v->hover.is_known = v->scrolls = false;
     check_forget(&v->check);
     if (moves) v->moved_ms = clock_ms();
 }
@@ -124,6 +124,7 @@ static mns_status draw(viewer *v, int step, int samples, int first, mns_error *e
     }
     if (status) subject_settle(v); /* a side may not have come to take its tree */
     v->failed = status != MNS_OK;
+    v->scrolls = false;
     v->is_new = false;
     v->stale = true;
     v->draws++;

@@ -91,24 +91,29 @@ static void scroll_across(viewer *v, double by)
     drawing_change(v, true);
 }
 
-/* Towards the surface under the cursor; beside it, towards the plane through the target. */
+/* The surface under the cursor; beside it, the plane through the target. */
+static vec3 under_cursor(viewer *v)
+{
+    vec3 point, right, up, forward;
+    double direction[3];
+    if (drawing_point(v, v->x, v->y, &point)) return point;
+    mns_view view = drawing_view(v);
+    camera_axes(&v->camera, &right, &up, &forward);
+    mns_view_ray(&view, v->x, v->y, direction);
+    double depth = vec3_length(vec3_sub(v->camera.target, v->camera.eye));
+    return vec3_along(v->camera.eye, depth / vec3_dot(vec3_load(direction), forward), vec3_load(direction));
+}
+
 void events_scroll(viewer *v, double across, double by)
 {
-    vec3 towards;
     scroll_across(v, across);
     if (by == 0) return;
-    if (!drawing_point(v, v->x, v->y, &towards)) {
-        vec3 right, up, forward;
-        double direction[3];
-        mns_view view = drawing_view(v);
-        camera_axes(&v->camera, &right, &up, &forward);
-        mns_view_ray(&view, v->x, v->y, direction);
-        double depth = vec3_length(vec3_sub(v->camera.target, v->camera.eye));
-        towards =
-            vec3_along(v->camera.eye, depth / vec3_dot(vec3_load(direction), forward), vec3_load(direction));
-    }
+    /* Of several steps before the next picture all go where the first one did. */
+    vec3 towards = v->scrolls ? v->towards : under_cursor(v);
     camera_zoom(&v->camera, pow(0.88, by), towards);
     drawing_change(v, true);
+    v->towards = towards;
+    v->scrolls = true;
 }
 
 void events_key(viewer *v, int key, int mods, bool repeats)

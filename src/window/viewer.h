@@ -135,6 +135,8 @@ typedef struct viewer {
     double x, y; /* of the cursor, framebuffer pixels */
     int drag;    /* which drag goes on, see events.c */
     double press_x, press_y, click_ms, click_x, click_y;
+    bool scrolls; /* towards there, and nothing was drawn since */
+    vec3 towards;
     double fly_ms; /* when the flight was last moved on */
     hover hover;
     script script;

@@ -78,6 +78,9 @@ hand keyup l
 hand key equal
 hand key ctrl+c
 told '--eye=0.5,0.5,2.5 ' "= does not zoom"
+hand click 6 # two fingers go to the left
+hand key ctrl+c
+told '--eye=0.[0-46-9].*,0.5,2.5 ' "two fingers do not pan"
 xdotool key ctrl+q
 wait $viewer || complain "a mouse: status $?: $(cat errors log)"
 ! grep -q -e 'GL error' -e 'the driver gave' -e '^error' log || complain "a mouse: $(cat log)"
