@@ -26,6 +26,7 @@ EFFECTS = {
     "Fresnel": ("--index 1.333 --reflections 1 --environment sky", "cast", None),
 }
 SLOW = "64 occlusion rays"
+SLOW_METHODS = ("tile", "fbvh", "bvh")
 PAPER = ["cast", "hard shadows", "+ 1 reflection", "+ 3 reflections"]
 # scene: its frames, and what the paper's shadows and first reflection cost over its casting
 SCENES = {"molecule:10000": (PAPER + [SLOW], ("0.26", "0.49")), "tornado:4000": (PAPER, ("0.16", "0.51")),
@@ -70,15 +71,21 @@ def view(program, scene):
     return (["--eye", ",".join(map(str, eye)), "--look-at", ",".join(map(str, centre))], "--light " + ",".join(map(str, light)))
 
 
+def methods_of(name, turn):
+    if turn > 0:
+        return () if name == SLOW else ("fbvh",)
+    return SLOW_METHODS if name == SLOW else METHODS
+
+
 def frames_of(program, scene):
     """Milliseconds a method and frame, rays beyond the first hits a hit, and the renderer."""
     where, light = view(program, scene)
     times, rays, renderer = {}, {}, ""
     for turn in range(ROUNDS):
         for name in SCENES[scene][0]:
-            for method in METHODS if turn == 0 else ("fbvh",) if name != SLOW else ():
+            for method in methods_of(name, turn):
                 options = where + EFFECTS[name][0].replace("LIGHT", light).split()
-                stats = draw(program, scene, method, options, 1 if name == SLOW or method == "bvh" else REPEAT)
+                stats = draw(program, scene, method, options)
                 times.setdefault((method, name), []).append(total(stats))
                 rays[name] = stats["counts"]["effects_rays"] / stats["counts"]["pixels_hit"]
                 renderer = stats["renderer"]
@@ -97,16 +104,16 @@ def print_effects(program):
         unit = ms["fbvh", "cast"]
         for name in names:
             _, before, most = EFFECTS[name]
-            cells = [f"{ms[m, name]:.0f} ({1e3 / ms[m, name]:.2f})" for m in METHODS]
-            cost = {m: (ms[m, name] - ms[m, before]) / unit for m in METHODS} if before else {}
+            cells = [f"{ms[m, name]:.0f} ({1e3 / ms[m, name]:.2f})" if (m, name) in ms else "" for m in METHODS]
+            cost = {m: (ms[m, name] - ms[m, before]) / unit for m in METHODS if (m, name) in ms} if before else {}
             goal = verdict(cost["fbvh"], most) if before and scene in ("molecule:10000", "tornado:4000") else ""
             paper = dict(zip(PAPER[1:3], published)).get(name, "")
             share = f"{rays[name]:.2f}" if before else ""
             if name == "hard shadows":
                 share += " of at least " + f"{SHARE_LEAST}: {'reached' if rays[name] >= SHARE_LEAST else 'missed'}"
-            rows.append([f"`{scene}`", name, *cells, *(f"{cost[m]:.2f}" if before else "" for m in METHODS), goal, paper, share])
+            rows.append([f"`{scene}`", name, *cells, *(f"{cost[m]:.2f}" if m in cost else "" for m in METHODS), goal, paper, share])
     print(f"{renderer}; {SIZE}, `poly3`, frames that stand still, in turn: medians of {REPEAT} frames, of `fbvh` of {ROUNDS} rounds of "
-          "them, of `bvh` one frame: milliseconds (frames a second). A cost is over the frame without the effect, of reflections over "
+          "them: milliseconds (frames a second). A cost is over the frame without the effect, of reflections over "
           "that with shadows, in frames of plain casting by `fbvh`; the goal is for `fbvh`.\n")
     print("| scene | frame | " + " | ".join(f"`{m}`" for m in METHODS) + " | " + " | ".join(f"cost, `{m}`" for m in METHODS) +
           " | at most | published | rays a hit |\n|-|-|" + "-|" * (2 * len(METHODS) + 3))
