@@ -11,7 +11,7 @@ printf 'rest\nspin 3\nrest\nside front\nrest\ntell still\nspin 10\nrest\nquit\n'
 echo '| scene | moving: pictures a second | median ms | p95 ms | drawn at | at rest, 1024x768, ms |'
 echo '|-|-|-|-|-|-|'
 for scene in examples/dam.json examples/molecule.json scattered:100000; do
-    xvfb-run -a -s '-screen 0 1280x1024x24' build/release/meniscus view "$scene" --size 1024x768 --no-panel \
+    xvfb-run -a -s '-screen 0 1280x1024x24' build/release/meniscus view "$scene" --size 1024x768 --no-panel --patience 600 \
         --script "$folder/script" >"$folder/log"
     still=$(sed -n 's/^still: .*last in \([0-9.]*\) ms.*/\1/p' "$folder/log")
     sed -n 's/^spin: \([0-9]*\) pictures, median \([0-9.]*\) ms, p95 \([0-9.]*\) ms, at last \([0-9x]*\) of .*/\1 \2 \3 \4/p' \

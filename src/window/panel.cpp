@@ -182,7 +182,7 @@ void fit_monitor(panel *p)
 void main_window(panel *p, const panel_content &c)
 {
     ImGui::SetNextWindowPos(ImVec2(8, 8), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(ImVec2(300 * p->scale, 0), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(320 * p->scale, 0), ImGuiCond_FirstUseEver);
     if (ImGui::Begin("meniscus")) {
         controls(p, c);
         sequence(p, c);

@@ -154,6 +154,8 @@ void viewer_measure(viewer *v);
 void viewer_set_size(viewer *v, int width, int height);
 /* The size of the window's framebuffer, as it has become. */
 void viewer_resize(viewer *v, int width, int height);
+/* listen.c: sets GLFW's callbacks, of which the panel's come after. */
+void viewer_listen(viewer *v);
 /* Wakes the loop, from whichever thread. */
 void viewer_wake(void);
 /* Whether fly keys are held, and in which direction. */

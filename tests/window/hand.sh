@@ -53,6 +53,7 @@ told() {
 view $'panel\nquit' scattered:30 "${size[@]}"
 panel=yes
 ! grep -q 'has no panel' log || panel=
+setxkbmap fr 2>/dev/null || true # where M and Q are elsewhere
 "$program" view scattered:500 --size 900x700 --eye 0.5,0.5,3 --look-at 0.5,0.5,0.5 >log 2>errors &
 viewer=$!
 window=$(timeout 20 xdotool search --sync --onlyvisible --name '^scattered:500' | head -n 1)
@@ -81,6 +82,8 @@ told '--eye=0.5,0.5,2.5 ' "= does not zoom"
 hand click 6 # two fingers go to the left
 hand key ctrl+c
 told '--eye=0.[0-46-9].*,0.5,2.5 ' "two fingers do not pan"
+hand key m
+told '^method: ' "a letter of another layout"
 xdotool key ctrl+q
 wait $viewer || complain "a mouse: status $?: $(cat errors log)"
 ! grep -q -e 'GL error' -e 'the driver gave' -e '^error' log || complain "a mouse: $(cat log)"
