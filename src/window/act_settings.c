@@ -101,6 +101,10 @@ mns_status action_check_it(viewer *v, const words *w, mns_error *error)
 {
     (void)w;
     mns_image *image[SIDES] = {NULL, NULL};
+    if (v->is_coarse)
+        return status_fail(
+            error, MNS_ERROR_UNSUPPORTED,
+            "the error is that of a whole picture, which would take long: Return draws it first");
     mns_status status = drawing_finish(v, error);
     for (int i = 0; i < drawing_sides(v) && !status; i++)
         status = mns_frame_read(v->side[i].frame, &image[i], error);

@@ -82,13 +82,14 @@ drawn() { sed -n "s/^$1: drew \([0-9]*\),.*/\1/p" log; }
 [[ $(drawn four) -ge $(($(drawn one) + 4)) ]] || complain "samples do not come one by one: $(cat log)"
 
 # ---- What takes longer than one has patience for stays coarse until it is asked for.
-view $'rest\ntell first\nset method fbvh\nrest\ntell set\nwhole\ntell whole\ncompare divider\nrest\ntell two
+view $'rest\ncheck\ntell first\nset method fbvh\nrest\ntell set\nwhole\ntell whole\ncompare divider\nrest\ntell two
 other fbvh:exact\nrest\ntell other\nsave whole.png\ntell saved\nquit' scattered:500 "${size[@]}" --patience 0.0001
 for word in first set two other; do
     grep -q "^$word: .* 60x45 of 320x240" log || complain "$word: not coarse: $(cat log)"
 done
+grep -q '^error: .*Return' log || complain "an error of a coarse picture: $(cat log)"
 grep -q '^whole: .* 320x240 of 320x240' log || complain "not whole: $(cat log)"
-[[ $(grep -c 'Return draws it' log) -eq 4 ]] || complain "not told: $(cat log)"
+[[ $(grep -c '^the whole picture .*Return draws it' log) -eq 4 ]] || complain "not told: $(cat log)"
 render scattered:500 "${size[@]}" --method fbvh -o expected.png
 same whole.png expected.png "what was coarse until it was saved"
 
