@@ -315,7 +315,7 @@ void list_cast(list_passes *p, gl_device *device, const mns_plan *plan, const GL
     bind_lists(p, device, plan, program[SHADER_CAST]);
     if (plan->features & FEATURE_SQUARES) {
         list_clear_planes(p, device, plan, target, region);
-        draw_squares(p, device, program[SHADER_CAST], region);
+        if (p->square_count) draw_squares(p, device, program[SHADER_CAST], region);
     } else
         draw_screen(p, device, program[SHADER_CAST]);
     read_counts(p, device, counts);
