@@ -22,6 +22,9 @@
 #include "lighting.glsl"
 #include "paths_block.glsl"
 #include "environment.glsl"
+#ifdef SOLIDS
+#include "solids.glsl"
+#endif
 #include "paths.glsl"
 #include "redo.glsl"
 #include "paths_planes.glsl"
@@ -63,6 +66,10 @@ const int PIECE_NONE = 0, PIECE_HIT = 1, PIECE_OPEN = 2, PIECE_CAP = 3, PIECE_LA
 #include "surface.glsl"
 #endif
 
+#ifdef SOLIDS
+#include "paths_solids.glsl"
+#endif
+
 // What path_ray met; PIECE_OPEN and PIECE_CAP: not known; PIECE_LATER: to be asked by the other program.
 struct Answer {
     int found;
@@ -76,7 +83,13 @@ Answer ask(bool first, out int work)
 {
     Answer answer = Answer(PIECE_LATER, 0.0, vec3(0.0), vec3(0.0));
     work = 0;
-    if (BOUNDS_TELL) answer.found = tree_any(path_ray, path_limit, work);
+    if (!BOUNDS_TELL) return answer;
+#ifdef SOLIDS
+    Solid solid = solid_ask(TAU);
+    if (!solid.open && solid.hit) answer.found = PIECE_HIT;
+    if (solid.open || solid.hit) return answer;
+#endif
+    answer.found = tree_any(path_ray, path_limit, work);
     return answer;
 }
 #else
@@ -86,12 +99,29 @@ Answer ask(bool first, out int work)
     work = 0;
     if (!first && BOUNDS_TELL) return answer;
     view_reach = sqrt(dot(path_ray.start, path_ray.start));
-    Cast got = tree_cast(path_ray, 0.0, path_limit, path_inwards ? 1.0 : -1.0);
+    float limit = path_limit;
+#ifdef SOLIDS
+    Solid solid = solid_ask(TAU);
+    path_met_solid = false;
+    if (solid.open || (solid.hit && path_asks != ASKS_PATH)) {
+        answer.found = solid.open ? PIECE_OPEN : PIECE_HIT;
+        return answer;
+    }
+    limit = solid_before(solid);
+#endif
+    Cast got = tree_cast(path_ray, 0.0, limit, path_inwards ? 1.0 : -1.0);
     work = cast_work;
     answer.found = got.found;
     answer.t = got.t;
+#if defined(SOLIDS) && defined(PATHS_ON)
+    if (solid.hit && got.found == PIECE_HIT && got.t > solid.t - solid_gap(solid)) answer.found = PIECE_OPEN;
+    if (solid.hit && got.found == PIECE_NONE) {
+        path_met_solid = true;
+        return Answer(PIECE_HIT, solid.t, solid.normal, solid_color(solid.mesh));
+    }
+#endif
 #ifdef PATHS_ON
-    if (path_asks != ASKS_PATH || got.found != PIECE_HIT) return answer;
+    if (path_asks != ASKS_PATH || answer.found != PIECE_HIT) return answer;
 #ifdef OVERLAPS
     cast_gather(path_ray, got);
 #endif

@@ -23,6 +23,9 @@
 #include "lighting.glsl"
 #include "paths_block.glsl"
 #include "environment.glsl"
+#ifdef SOLIDS
+#include "solids.glsl"
+#endif
 #include "paths.glsl"
 #include "redo.glsl"
 #include "paths_planes.glsl"
@@ -39,6 +42,9 @@
 #include "surface.glsl"
 #include "resolve_search.glsl"
 #include "tree_walk.glsl"
+#ifdef SOLIDS
+#include "paths_solids.glsl"
+#endif
 
 void take_ray(Ray ray)
 {
@@ -87,15 +93,20 @@ bool ray_next(bool first)
     return true;
 }
 
+// Whether the walk's ray leaves the first hit.
+bool leaves_first()
+{
+#ifdef PATHS_ON
+    if (place_path == 0u) return wait_rest[path_top - 1].x >> 1u == 1u;
+#endif
+    return place_path == 1u;
+}
+
 // The walk's ray once more, in doubles, from a root found in doubles: of the pixel's own ray, whose place it then leaves, or of its own.
 // In two steps, so that neither has its text twice.
 bool ray_again(ivec2 at)
 {
-    uint from = place_path;
-#ifdef PATHS_ON
-    if (place_path == 0u) from = wait_rest[path_top - 1].x >> 1u;
-#endif
-    bool first = from == 1u;
+    bool first = leaves_first();
     REAL s = NUM(0.0);
     for (int step = 0; step < 2; step++) {
         if ((step == 0) != first) {
@@ -108,6 +119,12 @@ bool ray_again(ivec2 at)
             take_ray(Ray(path_eye.xyz, path_first_way(vec2(at) + 0.5)));
             s = REAL(t.x) + REAL(t.y);
         }
+#ifdef SOLIDS
+        if (!path_on_surface()) { // a mesh's place is as good as its distance
+            if (first) place_at = leaf_ray.start + s * leaf_ray.way;
+            continue;
+        }
+#endif
         Surface surface = polish(s);
         if (first) {
             place_at = leaf_ray.start + s * leaf_ray.way;
@@ -129,6 +146,24 @@ void use(int found, REAL s)
     path_use(found == PIECE_HIT, s, surface.normal, lighting_albedo(surface.color));
 }
 
+#ifdef SOLIDS
+// The meshes' part in the answer: none, or all of it.
+const int SOLID_AWAY = 0, SOLID_MET = 1;
+
+int solid_use(Solid solid, inout int found, REAL s)
+{
+    if (solid.open) path_doubt = true;
+    path_met_solid = false;
+    if (!solid.hit) return SOLID_AWAY;
+    REAL gap = solid_gap(solid);
+    if (found == PIECE_HIT && s < solid.t - gap) return SOLID_AWAY;
+    if (found != PIECE_NONE && path_asks == ASKS_PATH) path_doubt = true;
+    path_met_solid = true;
+    path_use(true, solid.t, solid.normal, solid_color(solid.mesh));
+    return SOLID_MET;
+}
+#endif
+
 void main()
 {
     uint index = path_index();
@@ -141,7 +176,15 @@ void main()
         begin(at);
     REAL s = max(resolve_unpack(entry.zw), RAY_BEGIN);
     if (ray_again(at)) {
-        int found = resolve_walk(path_limit, path_inwards ? NUM(1.0) : NUM(-1.0), s);
+        REAL limit = path_limit;
+        bool walks = true;
+#ifdef SOLIDS
+        Solid solid = solid_ask(leaves_first() ? TAU : NUM(9.5367431640625e-7)); // what is further on was found in float
+        limit = solid_before(solid);
+        walks = !solid.hit || path_asks == ASKS_PATH;
+#endif
+        int found = PIECE_NONE;
+        if (walks) found = resolve_walk(limit, path_inwards ? NUM(1.0) : NUM(-1.0), s);
         if (!loops_whole(int(level_two))) found = PIECE_CAP;
         if (found == PIECE_LATER) {
             entry.zw = resolve_pack(s);
@@ -149,7 +192,10 @@ void main()
             return;
         }
         atomicAdd(count_spare, 1u);
-        use(found, s);
+#ifdef SOLIDS
+        if (solid_use(solid, found, s) == SOLID_AWAY)
+#endif
+            use(found, s);
     }
     entry = uvec4(entry.x, (entry.y & ENTRY_SLOT) | ENTRY_HELD, 0u, 0u);
     path_save(entry.y);

@@ -57,6 +57,8 @@ const int path_asks = ASKS_LIGHT;
 #define PATH_ASKS(what)
 #endif
 
+#include "paths_kind.glsl"
+
 // ---- Places
 
 #ifdef FRESNEL
@@ -74,7 +76,7 @@ REAL place_cosine()
 // What of the light is neither mirrored nor goes through.
 float place_opaque()
 {
-    return (1.0 - float(path_optics.z)) * (1.0 - place_mirrored);
+    return place_solid ? 1.0 : (1.0 - float(path_optics.z)) * (1.0 - place_mirrored);
 }
 
 vec3 path_absorbed(REAL way)
@@ -99,6 +101,9 @@ void place_take(uint path, REAL3 way, REAL3 outward, REAL length, vec3 share, uv
 {
     place_path = path;
     place_turn(way, outward);
+#ifdef SOLIDS
+    if (place_solid) place_inside = place_within(path, way);
+#endif
     place_share = place_inside ? share * path_absorbed(length) : share;
     place_left = left;
     place_mirrored = float(path_optics.x);
@@ -106,6 +111,7 @@ void place_take(uint path, REAL3 way, REAL3 outward, REAL length, vec3 share, uv
     float shown = float(optics_fresnel(place_ratio(), place_cosine()));
     place_mirrored = shown == 1.0 ? 1.0 : place_mirrored + (1.0 - place_mirrored) * shown;
 #endif
+    if (place_solid) place_mirrored = 0.0;
     place_shaded = place_shine = vec3(0.0);
     place_shadow = place_seen = 0.0;
     place_light = place_sample = 0u;
@@ -119,7 +125,7 @@ void light_done(vec3 to_light, float share)
     if (int(radiance.w) != LIGHT_HEAD) place_shadow += share;
     vec2 given = lighting_of(vec3(place_normal), vec3(place_viewer), to_light);
     place_shaded += lighting.y * share * given.x * radiance.rgb;
-    place_shine += share * given.y * radiance.rgb;
+    if (!place_solid) place_shine += share * given.y * radiance.rgb;
     place_light++;
     place_sample = 0u;
     place_seen = 0.0;
@@ -260,12 +266,12 @@ void place_finish()
         path_terms.x = path_counts.y > 0 ? place_shadow / float(path_counts.y) : 1.0;
         path_terms.y = open;
     }
-    if (!lighting_contour(vec3(place_normal), vec3(place_viewer))) {
+    if (place_solid || !lighting_contour(vec3(place_normal), vec3(place_viewer))) {
         vec3 shaded = place_albedo * (lighting.x * open + place_shaded);
         path_color += place_share * (place_shine + place_opaque() * shaded);
     }
 #ifdef REFRACTION
-    float passes = float(path_optics.z) * (1.0 - place_mirrored);
+    float passes = place_solid ? 0.0 : float(path_optics.z) * (1.0 - place_mirrored);
     if (passes > 0.0) {
         uint some = min(place_left.y, 1u);
         path_put_off(place_refracted_way(), 2u * place_path + 1u, some > 0u, place_left - uvec2(0u, some), passes, !place_inside);
@@ -340,6 +346,9 @@ void path_use(bool hit, REAL length, REAL3 outward, vec3 albedo)
     if (rest.x == 3u) path_terms.w = float(length);
     place_at = path_ray.start + length * path_ray.way;
     place_albedo = albedo;
+#ifdef SOLIDS
+    place_solid = path_met_solid;
+#endif
     place_take(rest.x, path_ray.way, outward, length, share, rest.yz);
 #endif
 }
@@ -356,13 +365,17 @@ void path_open(ivec2 at)
     place_path = 0u;
 }
 
-// Begins at the first hit: distance t as two floats, outward normal, blend of the balls' colours.
-void path_begin(ivec2 at, vec2 t, vec3 outward, vec4 blend)
+// Begins at the first hit: distance t as two floats, outward normal, blend of the balls' colours; `mesh`: 1 + that of a solid, else 0.
+void path_begin(ivec2 at, vec2 t, vec3 outward, vec4 blend, uint mesh)
 {
     path_open(at);
     dvec3 way = path_first_way(vec2(at) + 0.5);
     double length = double(t.x) + double(t.y);
     place_at = REAL3(path_eye.xyz + length * way);
     place_albedo = lighting_albedo(blend);
+#ifdef SOLIDS
+    place_solid = mesh > 0u;
+    if (place_solid) place_albedo = solid_color(mesh - 1u);
+#endif
     place_take(1u, REAL3(way), REAL3(outward), REAL(length), vec3(1.0), path_levels.xy);
 }

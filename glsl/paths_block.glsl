@@ -24,7 +24,8 @@ layout(std140, binding = 1) uniform Paths {
     vec4 path_absorption; // a unit of length
     ivec4 path_counts; // lights, those that cast shadows, rays a pixel and sphere of light, rays of the ambient light
     uvec4 path_levels; // of mirroring, surfaces that light passes through; seed, index of the pixel's sample
-    ivec4 path_size;   // of the frame
+    ivec4 path_size;   // of the frame; z: the eye is in the medium, 1, or on the surface, 2; w: 2
+    uvec4 path_solids; // where solids.glsl finds triangles, corners and colours; how many nodes there are
 } PATHS_MEMBERS;
 
 #ifdef PATHS_LOOSE
@@ -42,6 +43,9 @@ layout(location = 34) uniform vec4 path_absorption;
 layout(location = 35) uniform ivec4 path_counts;
 layout(location = 36) uniform uvec4 path_levels;
 layout(location = 37) uniform ivec4 path_size;
+#ifdef SOLIDS
+layout(location = 38) uniform uvec4 path_solids;
+#endif
 #endif
 
 dvec4 light_at(uint light)

@@ -13,5 +13,10 @@ void begin(ivec2 at)
 #else
     vec4 blend = vec4(0.0);
 #endif
-    path_begin(at, texelFetch(plane_t, at, 0).xy, texelFetch(plane_normal, at, 0).xyz, blend);
+#ifdef SOLIDS
+    uint mesh = texelFetch(plane_mesh, at, 0).x;
+#else
+    const uint mesh = 0u;
+#endif
+    path_begin(at, texelFetch(plane_t, at, 0).xy, texelFetch(plane_normal, at, 0).xyz, blend, mesh);
 }

@@ -8,6 +8,9 @@ layout(binding = 7) uniform sampler2D plane_normal;
 #ifdef COLORS
 layout(binding = 8) uniform sampler2D plane_color;
 #endif
+#ifdef SOLIDS
+layout(binding = 11) uniform usampler2D plane_mesh;
+#endif
 layout(binding = 1, rgba32f) writeonly uniform image2D plane_lit;
 layout(binding = 2, rgba32f) writeonly uniform image2D plane_terms;
 layout(binding = 3, r32f) writeonly uniform image2D plane_settled;

@@ -27,7 +27,7 @@ void path_save(uint slot)
     path_store[at + 2u] = uvec4(uint(path_top), place_path, place_light, place_sample);
     path_store[at + 3u] = uvec4(place_left, flags, floatBitsToUint(place_seen));
     path_store[at + 4u] = store_bits(vec3(place_at), place_mirrored);
-    path_store[at + 5u] = store_bits(vec3(place_normal), 0.0);
+    path_store[at + 5u] = store_bits(vec3(place_normal), place_solid ? 1.0 : 0.0);
     path_store[at + 6u] = store_bits(vec3(place_viewer), 0.0);
     path_store[at + 7u] = store_bits(place_albedo, 0.0);
     path_store[at + 8u] = store_bits(place_share, 0.0);
@@ -67,6 +67,9 @@ void path_load(ivec2 pixel, uint slot)
     place_at = REAL3(store_vector(at + 4u));
     place_mirrored = uintBitsToFloat(path_store[at + 4u].w);
     place_normal = REAL3(store_vector(at + 5u));
+#ifdef SOLIDS
+    place_solid = path_store[at + 5u].w != 0u;
+#endif
     place_viewer = REAL3(store_vector(at + 6u));
     place_albedo = store_vector(at + 7u);
     place_share = store_vector(at + 8u);

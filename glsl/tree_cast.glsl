@@ -111,7 +111,7 @@ bool cast_find_piece()
         may = piece_may(cast_s, cast_stop, cast_side) && known;
         float next = cast_stop;
 #ifdef PATHS
-        if (may && cast_s == cast_begin) { // on the surface: the search begins where it is left
+        if (may && cast_s == cast_begin && path_on_surface()) { // on the surface: the search begins where it is left
             next = piece_leave(cast_s, cast_stop, cast_side);
             may = next == cast_s;
         }
@@ -150,7 +150,7 @@ int cast_solve(out float hit)
 {
 #ifdef PATHS
     hit = cast_s;
-    if (cast_s == cast_begin) return PIECE_OPEN; // the surface could not be left
+    if (cast_s == cast_begin && path_on_surface()) return PIECE_OPEN; // the surface could not be left
 #endif
     int found = piece_solve(cast_s, cast_stop, cast_side, ROOT_STEPS, hit);
 #ifdef OVERLAPS

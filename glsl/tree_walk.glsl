@@ -125,7 +125,7 @@ int resolve_step(Stretch stretch, REAL side, bool face, inout REAL leap, inout R
         EACH_ACTIVE(j) piece_take(active_chord(j), begin, stop);
         if (piece_may(begin, stop, side)) {
 #ifdef PATHS
-            if (begin == RAY_BEGIN) { // on the surface: the search begins where it is left
+            if (begin == RAY_BEGIN && path_on_surface()) { // on the surface: the search begins where it is left
                 s = piece_leave(begin, stop, side);
                 return s == begin ? PIECE_OPEN : PIECE_NONE;
             }

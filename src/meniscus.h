@@ -254,6 +254,26 @@ typedef struct mns_effects {
     uint32_t seed;    /* of the samples: the same seed gives the same bits */
 } mns_effects;
 
+/* A solid beside the surface, from a mesh file (OBJ, PLY, STL, glTF; where assimp is built in: mns_version
+ * tells). It is opaque, seen from both sides, and shaded as the surface but without shine, mirror or contour;
+ * it hides, casts and receives shadows, occludes, and is seen in mirrors and through refraction. Its colours,
+ * shadows and the rest are those of the look. The view fits the field alone. */
+typedef struct mns_mesh {
+    const char *file; /* borrowed for the call; read again where it has changed */
+    bool has_color;
+    double color[3]; /* sRGB; without: 0.8, 0.8, 0.8 */
+} mns_mesh;
+
+typedef struct mns_mesh_info {
+    size_t triangles, corners; /* corners in one place are one */
+    size_t dropped;            /* triangles without an area */
+    double lo[3], hi[3];
+} mns_mesh_info;
+
+/* Reads a mesh file and tells what is in it. Errors: USAGE, IO, INPUT, MEMORY, UNSUPPORTED (too many
+ * triangles, or a build that reads no meshes). */
+MNS_API mns_status mns_mesh_get_info(const char *file, mns_mesh_info *info, mns_error *error);
+
 typedef struct mns_look {
     unsigned set;
     const char
@@ -261,6 +281,8 @@ typedef struct mns_look {
     const mns_light *lights; /* instead of `light`; at most 256, borrowed for the call */
     size_t light_count;      /* 0: the one light of `light` and `light_direction` */
     mns_effects effects;
+    const mns_mesh *meshes; /* at most 256, borrowed for the call */
+    size_t mesh_count;
     mns_light_kind light;      /* HEAD or DIRECTIONAL */
     double light_direction[3]; /* towards the light; for DIRECTIONAL; 0,0,0: 1,2,1.5 */
     mns_shading shading;
@@ -542,9 +564,10 @@ MNS_API const mns_plan *mns_frame_plan(const mns_frame *frame);
 typedef enum mns_plane {                      /* GL textures of a frame; a host may sample them */
                          MNS_PLANE_COLOR = 0, /* RGBA32F, linear, premultiplied */
                          MNS_PLANE_DEPTH, /* RG32F: t and its low word, +inf on a miss (t is the distance from
-                                             the eye along the unit ray, in units of mns_stats.t_unit) */
-                         MNS_PLANE_NORMAL, /* RGBA32F: outward normal, and w: 1 certain, 0 undecided; 0,0,0 on
-                                              a miss */
+                                             the eye along the unit ray to the surface or, where that is
+                                             nearer, a mesh, in units of mns_stats.t_unit) */
+                         MNS_PLANE_NORMAL, /* RGBA32F: outward normal (of a mesh: turned to the eye), and w: 1
+                                              certain, 0 undecided; 0,0,0 on a miss */
 } mns_plane;
 
 /* The GL name of a plane's texture; row 0 is the bottom. 0 before the first draw. */
@@ -570,6 +593,7 @@ typedef struct mns_image {
     float *mirror_t;        /* distance on to what its mirrored ray meets; +inf: nothing, or not traced */
     float *refract_t;       /* and its refracted ray */
     float *effects_certain; /* 1, or 0 where some ray beyond the first hit was undecided */
+    float *mesh;            /* 1 + the index of the look's mesh that is seen, else 0; NULL without meshes */
 } mns_image;
 
 /* Reads a frame's planes. Errors: USAGE (not drawn yet), MEMORY, GL. */
@@ -581,8 +605,8 @@ MNS_API mns_status mns_image_heat(const mns_image *image, mns_work count, mns_co
                                   double *most, mns_error *error);
 /* Writes an image: .png (8-bit sRGB with alpha where any pixel is not opaque) or .exr (float32 R G B A, t,
  * t.lo, N.X, N.Y, N.Z, certain and, where there are some, t.err, work.nodes, work.leaves, work.balls,
- * work.rounds, shadow, occlusion, mirror.t, refract.t and certain.effects, ZIP-compressed), written beside
- * the name and renamed. Errors: USAGE (unknown ending), IO, MEMORY, UNSUPPORTED
+ * work.rounds, shadow, occlusion, mirror.t, refract.t, certain.effects and mesh, ZIP-compressed), written
+ * beside the name and renamed. Errors: USAGE (unknown ending), IO, MEMORY, UNSUPPORTED
  * (.exr of distances that floats do not hold: t_unit is not 1). */
 MNS_API mns_status mns_image_write(const mns_image *image, const char *path, mns_error *error);
 /* Reads back an .exr that mns_image_write wrote. Errors: IO, INPUT, MEMORY. */

@@ -242,6 +242,9 @@ static void two_looks_have_two_truths(void **state)
                            far = {.kind = MNS_LIGHT_POINT, .position = {0, 0, 2}},
                            ball = {.kind = MNS_LIGHT_AREA, .position = {0, 0, 1}, .radius = 1},
                            sun = {.kind = MNS_LIGHT_DIRECTIONAL, .direction = {1, 0, 0}};
+    static const mns_mesh floor_mesh = {.file = "floor.obj"}, other_mesh = {.file = "box.obj"},
+                          black_mesh = {.file = "floor.obj", .has_color = true},
+                          dark_mesh = {.file = "floor.obj", .has_color = true, .color = {0, 0, 0.1}};
     static const mns_light two[] = {{.strength = 2}, {.strength = 3}};
     static const mns_look looks[] = {
         {.set = 0},
@@ -255,6 +258,10 @@ static void two_looks_have_two_truths(void **state)
         {.lights = &ball, .light_count = 1},
         {.lights = &sun, .light_count = 1},
         {.lights = two, .light_count = 2},
+        {.meshes = &floor_mesh, .mesh_count = 1},
+        {.meshes = &other_mesh, .mesh_count = 1},
+        {.meshes = &black_mesh, .mesh_count = 1},
+        {.meshes = &dark_mesh, .mesh_count = 1},
         {.effects = {.shadows = true}},
         {.effects = {.shadow_samples = 1}},
         {.effects = {.reflections = 1}},

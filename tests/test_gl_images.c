@@ -137,13 +137,19 @@ static bool draw_row(fixture *f, const image_row *row, image_scene *s, const cha
     return same;
 }
 
+/* Whether this build reads what the scene asks for. */
+static bool is_readable(const image_scene *s)
+{
+    return !s->scene->look.mesh_count || !strstr(mns_version(), "no assimp");
+}
+
 static void expect_all(fixture *f, const char *method)
 {
     size_t drawn = 0, failed = 0;
     for (size_t i = 0; i < f->table.count; i++) {
         const image_row *row = &f->table.row[i];
         image_scene s = image_scene_load(FOLDER, row);
-        if (is_wanted(f, row, &s, method)) {
+        if (is_readable(&s) && is_wanted(f, row, &s, method)) {
             failed += !draw_row(f, row, &s, method, NULL);
             drawn++;
         }
@@ -181,7 +187,7 @@ static void the_reference_still_draws_the_truth(void **state)
     size_t failed = 0;
     for (size_t i = 0; i < f->table.count; i++) {
         image_scene s = image_scene_load(FOLDER, &f->table.row[i]);
-        failed += !draw_row(f, &f->table.row[i], &s, "reference", &rounding);
+        failed += is_readable(&s) && !draw_row(f, &f->table.row[i], &s, "reference", &rounding);
         image_scene_free(&s);
     }
     if (failed) fail_msg("%zu truths are not what the reference draws", failed);
@@ -216,7 +222,8 @@ static void an_eye_a_little_forward_is_noticed(void **state)
             s.view.eye[axis] += moved * forward[axis];
             s.view.look_at[axis] += moved * forward[axis];
         }
-        expect_noticed(f, &f->table.row[i], &s, "an eye a ten thousandth of a radius forward");
+        if (is_readable(&s))
+            expect_noticed(f, &f->table.row[i], &s, "an eye a ten thousandth of a radius forward");
         image_scene_free(&s);
     }
 }

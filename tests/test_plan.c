@@ -36,6 +36,7 @@
 #define LIT_BY_RAYS  (FEATURE_LIT | FEATURE_RAYS)
 #define FROM_A_SIDE  .light = MNS_LIGHT_DIRECTIONAL
 
+static const mns_mesh floor_mesh = {.file = "floor.obj"};
 static const mns_light point_light = {.kind = MNS_LIGHT_POINT, .position = {1, 2, 3}},
                        area_light = {.kind = MNS_LIGHT_AREA, .position = {1, 2, 3}, .radius = 0.5},
                        dim_light = {.kind = MNS_LIGHT_HEAD, .strength = 0.5},
@@ -256,6 +257,22 @@ static const scene scenes[] = {
      .look = {.effects = {.occlusion_rays = 8}},
      .features = POLY3 | CORE | TILES | FEATURE_OCCLUSION | LIT_BY_RAYS,
      .passes = "sort bin build upload cast resolve effects shade"},
+    {"a mesh, seen and no more", .desc = {SCENE_UNIT}, .look = {.meshes = &floor_mesh, .mesh_count = 1},
+     .features = POLY3 | CORE | LEAST | FEATURE_SOLIDS | FEATURE_LIT,
+     .passes = "sort upload core_depth gather cast resolve solids effects shade",
+     .left_out = "FBVH: no secondary rays are asked for"},
+    {"a mesh that all the mirror shows casts shadows on", .desc = {SCENE_UNIT}, .limits = &scene_llvmpipe,
+     .options = {.method = MNS_METHOD_FBVH},
+     .look = {.meshes = &floor_mesh,
+              .mesh_count = 1,
+              FROM_A_SIDE,
+              .set = MNS_LOOK_SPECULAR,
+              .effects = {.shadows = true, .mirror = 1, .reflections = 1, .occlusion_rays = 4}},
+     .features = POLY3 | FEATURE_TEXELS | FEATURE_TREE | FEATURE_DIRECTIONAL | FEATURE_SHADOWS |
+                 FEATURE_MIRROR | FEATURE_OCCLUSION | FEATURE_SOLIDS | LIT_BY_RAYS,
+     .passes = "build upload trace resolve solids effects shade"},
+    {"no mesh", .desc = {SCENE_UNIT}, .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES,
+     .left_out = "meshes: nobody asks for them"},
     {"mirrors, all by a tree", .desc = {SCENE_UNIT}, .limits = &scene_llvmpipe,
      .options = {.method = MNS_METHOD_FBVH}, .look = {.effects = {.reflections = 2}},
      .features = POLY3 | SPECULAR | FEATURE_TEXELS | FEATURE_TREE | FEATURE_MIRROR | LIT_BY_RAYS,

@@ -134,6 +134,27 @@ static void lights_say_what_they_are(void **state)
     mns_scene_destroy(s);
 }
 
+static void meshes_have_files_and_colours(void **state)
+{
+    (void)state;
+    mns_scene *s = parse("{\"meshes\": [\"floor.obj\", {\"file\": \"/abs/box.ply\", \"color\": [0, 0, 1]}]}");
+    assert_int_equal(s->look.mesh_count, 2);
+    assert_string_equal(s->look.meshes[0].file, "dir/floor.obj");
+    assert_false(s->look.meshes[0].has_color);
+    assert_string_equal(s->look.meshes[1].file, "/abs/box.ply");
+    assert_true(s->look.meshes[1].has_color);
+    near3(s->look.meshes[1].color, 0, 0, 1);
+    mns_scene_destroy(s);
+    refuse("{\"meshes\": \"floor.obj\"}", MNS_ERROR_INPUT,
+           "s.json: meshes: \"floor.obj\": expected a list of at most 256 meshes");
+    refuse("{\"meshes\": [\"a.obj\", 3]}", MNS_ERROR_INPUT,
+           "s.json: meshes[1]: 3: expected a file's name, or an object with a file");
+    refuse("{\"meshes\": [{\"color\": [0, 0, 1]}]}", MNS_ERROR_INPUT,
+           "s.json: meshes[0]: an object: expected an object with a file");
+    refuse("{\"meshes\": [{\"file\": \"a.obj\", \"size\": 2}]}", MNS_ERROR_INPUT,
+           "s.json: meshes[0].size: unknown key; known: file, color");
+}
+
 static void effects_reach_their_members(void **state)
 {
     (void)state;
@@ -230,7 +251,8 @@ static void unknown_keys_are_named_by_their_path(void **state)
     refuse("{\"light\": {\"knd\": \"head\"}}", MNS_ERROR_INPUT,
            "s.json: light.knd: unknown key; known: kind, direction");
     refuse("{\"colour\": 1}", MNS_ERROR_INPUT,
-           "s.json: colour: unknown key; known: field, input, inputs, camera, light, lights, look, effects, "
+           "s.json: colour: unknown key; known: field, input, inputs, camera, light, lights, meshes, look, "
+           "effects, "
            "material, background, "
            "size, frame, method, solver, samples");
     refuse("{\"camera\": {\"\": 1}}", MNS_ERROR_INPUT,
@@ -386,6 +408,7 @@ int main(void)
         cmocka_unit_test(empty_scene_leaves_every_default),
         cmocka_unit_test(light_with_a_direction_alone_is_directional),
         cmocka_unit_test(lights_say_what_they_are),
+        cmocka_unit_test(meshes_have_files_and_colours),
         cmocka_unit_test(effects_reach_their_members),
         cmocka_unit_test(wrong_lights_and_effects_are_named),
         cmocka_unit_test(background_can_be_written_in_each_way),

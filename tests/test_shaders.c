@@ -28,6 +28,7 @@ static const char *const shader_names[SHADER_COUNT] = {
     [SHADER_TREE] = "tree",
     [SHADER_TREE_WALK] = "tree-walk",
     [SHADER_TREE_RESOLVE] = "tree-resolve",
+    [SHADER_SOLIDS_FIRST] = "solids-first",
     [SHADER_EFFECTS_LIST] = "effects-list",
     [SHADER_EFFECTS_PLAIN] = "effects-plain",
     [SHADER_EFFECTS_ANY] = "effects-any",

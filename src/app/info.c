@@ -49,14 +49,18 @@ static mns_status print_backends(const app_options *o, mns_error *error)
     return MNS_OK;
 }
 
-static mns_status print_json(const mns_field *field, size_t frame, size_t frames, mns_error *error)
+static mns_status print_json(const app_options *o, const mns_field *field, size_t frame, size_t frames,
+                             mns_error *error)
 {
     json_t *object = info_json(field, frame, frames);
     if (!object) return app_fail(error, MNS_ERROR_MEMORY, "out of memory describing the input");
-    json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    putchar('\n');
+    mns_status status = o->look.mesh_count ? info_add_meshes(object, &o->look, error) : MNS_OK;
+    if (!status) {
+        json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+        putchar('\n');
+    }
     json_decref(object);
-    return MNS_OK;
+    return status;
 }
 
 static mns_status describe(const app_options *o, mns_input *input, mns_error *error)
@@ -69,9 +73,10 @@ static mns_status describe(const app_options *o, mns_input *input, mns_error *er
     mns_status status = mns_input_read(input, frame, &field, error);
     if (status) return status;
     if (o->json)
-        status = print_json(field, frame, frames, error);
+        status = print_json(o, field, frame, frames, error);
     else
         info_print(field, frame, frames);
+    if (!status && !o->json) status = info_print_meshes(&o->look, error);
     mns_field_destroy(field);
     return status;
 }

@@ -182,6 +182,33 @@ mns_status option_light(app_options *o, const char *name, const char *text, mns_
     return MNS_OK;
 }
 
+/* ---- Meshes ---- */
+
+/* The first given takes the place of the scene's; those after it are added. What follows the last colon is a
+ * colour where it reads as one. */
+mns_status option_mesh(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    mns_mesh mesh = {0};
+    double rgba[4];
+    const char *colon = strrchr(text, ':');
+    size_t length = strlen(text);
+    if (o->mesh_count == APP_MESHES)
+        return app_fail(error, MNS_ERROR_USAGE, "%s: at most %d meshes; take a scene for more", name,
+                        APP_MESHES);
+    if (colon && !mns_color_parse(colon + 1, rgba, NULL) && rgba[3] == 1) {
+        length = (size_t)(colon - text);
+        mesh.has_color = true;
+        memcpy(mesh.color, rgba, sizeof mesh.color);
+    }
+    if (!length) return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected FILE or FILE:COLOR", name, text);
+    mesh.file = strndup(text, length);
+    if (!mesh.file) return app_fail(error, MNS_ERROR_MEMORY, "out of memory reading the command line");
+    o->meshes[o->mesh_count++] = mesh;
+    o->look.meshes = o->meshes;
+    o->look.mesh_count = o->mesh_count;
+    return MNS_OK;
+}
+
 /* ---- Effects ---- */
 
 mns_status option_look(app_options *o, const char *name, const char *text, mns_error *error)

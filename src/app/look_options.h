@@ -6,8 +6,8 @@
 
 option_apply option_shading, option_cel_bands, option_color, option_background, option_color_by,
     option_color_map, option_color_range, option_ambient, option_diffuse, option_specular, option_shininess,
-    option_light, option_look, option_shadows, option_reflections, option_refractions, option_mirror,
-    option_index, option_transmission, option_absorption, option_occlusion, option_environment,
+    option_light, option_mesh, option_look, option_shadows, option_reflections, option_refractions,
+    option_mirror, option_index, option_transmission, option_absorption, option_occlusion, option_environment,
     option_effects_seed;
 
 #define OPTIONS_OF_LOOK                                                                                      \
@@ -19,6 +19,9 @@ option_apply option_shading, option_cel_bands, option_color, option_background, 
          "then "                                                                                             \
          "@STRENGTH or @COLOR or both; may be repeated",                                                     \
          option_light},                                                                                      \
+        {"mesh", 0, "FILE[:COLOR]",                                                                          \
+         "a solid beside the surface: OBJ, PLY, STL or glTF (default colour 0.8,0.8,0.8); may be repeated",  \
+         option_mesh},                                                                                       \
         {"shading", 0, "NAME", "smooth (the default) or cel", option_shading},                               \
         {"cel-bands", 0, "N", "bands of cel shading, 1 to 64 (default 3)", option_cel_bands},                \
         {"color", 0, "COLOR", "the surface, R,G,B in [0, 1] or #rrggbb (default 0.35,0.62,0.86)",            \

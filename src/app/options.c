@@ -183,6 +183,12 @@ static mns_status take_names(command_line *line, app_options *o, mns_error *erro
     return MNS_OK;
 }
 
+static void free_meshes(app_options *o)
+{
+    for (size_t i = 0; i < o->mesh_count; i++) free((char *)o->meshes[i].file);
+    o->mesh_count = 0;
+}
+
 mns_status options_read(const option_table *table, int argc, char **argv, app_options *o, mns_error *error)
 {
     memset(o, 0, sizeof *o);
@@ -198,6 +204,7 @@ mns_status options_read(const option_table *table, int argc, char **argv, app_op
     o->help = line.help;
     if (!status && !line.help) {
         status = apply(&line, &scratch, error);
+        free_meshes(&scratch);
         if (!status) status = take_names(&line, o, error);
         if (!status) status = apply(&line, o, error);
         if (!status) status = note_given(&line, o, error);
@@ -209,6 +216,7 @@ mns_status options_read(const option_table *table, int argc, char **argv, app_op
 void options_free(app_options *o)
 {
     mns_scene_destroy(o->scene);
+    free_meshes(o);
     free(o->names);
     free(o->given);
 }

@@ -8,7 +8,7 @@
 #include "meniscus.h"
 #include "window/window.h"
 
-enum { APP_LIGHTS = 32 };
+enum { APP_LIGHTS = 32, APP_MESHES = 32 };
 
 /* All that a command was told. Strings point into argv or into `scene`. */
 typedef struct app_options {
@@ -19,6 +19,8 @@ typedef struct app_options {
     mns_look look;
     mns_light lights[APP_LIGHTS]; /* those of --light, where it was given */
     size_t light_count;
+    mns_mesh meshes[APP_MESHES]; /* those of --mesh, likewise, with names of their own */
+    size_t mesh_count;
     mns_options draw;
     mns_backend backend;
     const char *output, *aov, *heat, *stats; /* NULL: not asked for */

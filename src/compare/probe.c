@@ -71,7 +71,13 @@ static mns_status solve(const probe *p, uint32_t index, probe_pixel *result, mns
     double t = image_distance(p->image, index);
     *result = (probe_pixel){.true_hit = hit.hit, .pixel = {.x = x, .y = y, .t = t, .error = NAN}};
     result->pixel.truth = hit.hit ? hit.t : INFINITY;
-    if (has != hit.hit) {
+    if (p->image->mesh &&
+        p->image->mesh[index] > 0) { /* all that is asked: does the surface lie before it? */
+        bool before = hit.hit && hit.t < t - allowed_error(p, direction, &hit);
+        result->true_hit = before;
+        result->pixel.kind = METRICS_MISSED;
+        result->verdict = before ? DISAGREED : AGREED;
+    } else if (has != hit.hit) {
         result->pixel.kind = has ? METRICS_INVENTED : METRICS_MISSED;
         result->verdict = DISAGREED;
     } else if (has) {

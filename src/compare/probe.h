@@ -20,7 +20,8 @@ typedef struct probe_report {
 } probe_report;
 
 /* Draws `rays` pixels without replacement by `seed` (all, where the image has no more) and solves them again.
- * `view` is resolved, `image` is what was drawn of it. Parallel. Errors: MEMORY, USAGE (the sizes differ). */
+ * `view` is resolved, `image` is what was drawn of it. Of a pixel that shows a mesh it is asked
+ * whether the surface lies behind. Parallel. Errors: MEMORY, USAGE (the sizes differ). */
 mns_status probe_image(const mns_field *field, const mns_view *view, const mns_image *image, size_t rays,
                        uint64_t seed, probe_report *report, mns_error *error);
 

@@ -163,6 +163,21 @@ static mns_status trace(const truth_desc *desc, truth_planes *p, mns_error *erro
     return status;
 }
 
+/* Where a mesh is seen first, it is the first hit. */
+static void take_meshes(const mns_image *image, truth_planes *p)
+{
+    const double unit = image->t_unit > 0 ? image->t_unit : 1;
+    size_t pixels = (size_t)p->width * (size_t)p->height;
+    for (size_t i = 0; i < pixels; i++) {
+        if (image->mesh[i] == 0) continue;
+        p->t[i] = image_distance(image, i);
+        p->t_error[i] = (double)image->t_error[i] * unit;
+        p->certain[i] = image->certain[i] > 0.5f;
+        p->radius[i] = 0;
+        for (size_t c = 3 * i; c < 3 * i + 3; c++) p->normal[c] = (double)image->normal[c];
+    }
+}
+
 /* The same view by the renderer's own reference, for its colours and the terms of its effects. */
 static mns_status shade(const truth_desc *desc, truth_planes *p, mns_error *error)
 {
@@ -176,6 +191,7 @@ static mns_status shade(const truth_desc *desc, truth_planes *p, mns_error *erro
     if (!status) status = mns_frame_read(frame, &image, error);
     if (!status) memcpy(p->rgba, image->rgba, (size_t)p->width * (size_t)p->height * 4 * sizeof *p->rgba);
     if (!status) status = copy_effects(image, p, error);
+    if (!status && image->mesh) take_meshes(image, p);
     mns_image_destroy(image);
     mns_frame_destroy(frame);
     return status;

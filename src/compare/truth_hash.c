@@ -87,16 +87,30 @@ static void hash_light(hash_state *h, const mns_light *light)
     hash_double(h, light->strength);
 }
 
-/* A map goes by its name, size and time: reading it whole would take longer than drawing. */
-static void hash_environment(hash_state *h, const char *name)
+/* A file goes by its name, size and time: reading it whole would take longer than drawing. */
+static void hash_file(hash_state *h, const char *name)
 {
     struct stat about;
     hash_text(h, name);
-    bool is_map = name && *name && strcmp(name, "sky") != 0;
-    if (!is_map || stat(name, &about)) return;
+    if (!name || stat(name, &about)) return;
     hash_word(h, (uint64_t)about.st_size);
     hash_word(h, (uint64_t)about.st_mtim.tv_sec);
     hash_word(h, (uint64_t)about.st_mtim.tv_nsec);
+}
+
+static void hash_environment(hash_state *h, const char *name)
+{
+    if (name && *name && strcmp(name, "sky") != 0)
+        hash_file(h, name);
+    else
+        hash_text(h, name);
+}
+
+static void hash_mesh(hash_state *h, const mns_mesh *mesh)
+{
+    hash_file(h, mesh->file);
+    hash_word(h, mesh->has_color);
+    hash_doubles(h, mesh->color, 3);
 }
 
 static void hash_effects(hash_state *h, const mns_effects *e)
@@ -130,6 +144,8 @@ static void hash_look(hash_state *h, const mns_look *look, const mns_field *fiel
     hash_word(h, look->light_count);
     for (size_t i = 0; look->lights && i < look->light_count; i++) hash_light(h, &look->lights[i]);
     hash_effects(h, &look->effects);
+    hash_word(h, look->mesh_count);
+    for (size_t i = 0; look->meshes && i < look->mesh_count; i++) hash_mesh(h, &look->meshes[i]);
     hash_text(h, look->color_by);
     for (size_t i = 0; look->color_by && i < field->p.column_count; i++) {
         const particles_column *column = &field->p.column[i];

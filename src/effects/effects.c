@@ -10,12 +10,16 @@
 #include <string.h>
 
 mns_status effects_begin(effects_scene *scene, const mns_plan *plan, const mns_reference *reference,
-                         effects_albedo *albedo, const void *user, mns_error *error)
+                         const solid_set *solids, effects_albedo *albedo, const void *user, mns_error *error)
 {
-    size_t count = plan->look.light_count;
-    *scene = (effects_scene){.plan = plan, .reference = reference, .albedo = albedo, .user = user};
+    size_t count = plan->look.light_count, meshes = plan->look.mesh_count;
+    *scene = (effects_scene){
+        .plan = plan, .reference = reference, .solids = solids, .albedo = albedo, .user = user};
     scene->radiance = memory_array(count, sizeof *scene->radiance);
-    if (!scene->radiance) return status_no_memory(error, "while tracing a frame");
+    scene->solid_color = memory_array(meshes, sizeof *scene->solid_color);
+    if (!scene->radiance || !scene->solid_color) return status_no_memory(error, "while tracing a frame");
+    for (size_t i = 0; i < meshes; i++)
+        for (int c = 0; c < 3; c++) scene->solid_color[i][c] = color_linear(plan->mesh[i].color[c]);
     for (size_t i = 0; i < count; i++)
         for (int c = 0; c < 3; c++)
             scene->radiance[i][c] = plan->light[i].strength * color_linear(plan->light[i].color[c]);
@@ -25,6 +29,7 @@ mns_status effects_begin(effects_scene *scene, const mns_plan *plan, const mns_r
 void effects_end(effects_scene *scene)
 {
     free(scene->radiance);
+    free(scene->solid_color);
     environment_end(&scene->environment);
     *scene = (effects_scene){0};
 }
@@ -40,16 +45,22 @@ static double largest(const double v[3])
     return fmax(v[0], fmax(v[1], v[2]));
 }
 
-static void surface_take(const effects_walk *walk, vec3 way, const reference_answer *answer, uint32_t path,
-                         effects_surface *surface)
+/* `within`: the ray came through the medium, which a solid does not tell. */
+static void surface_take(const effects_walk *walk, vec3 way, bool within, const effects_met *met,
+                         uint32_t path, effects_surface *surface)
 {
+    const reference_answer *answer = &met->answer;
     vec3 outward = vec3_load(answer->hit.normal);
-    surface->inside = vec3_dot(outward, way) > 0;
-    surface->normal = surface->inside ? vec3_scale(outward, -1) : outward;
+    surface->solid = met->mesh != 0;
+    surface->inside = surface->solid ? within : vec3_dot(outward, way) > 0;
+    surface->normal = vec3_dot(outward, way) > 0 ? vec3_scale(outward, -1) : outward;
     surface->to_viewer = vec3_scale(way, -1);
     surface->at = vec3_load(answer->point);
     surface->path = path;
-    walk->scene->albedo(walk->scene->user, walk->scratch, answer->s, surface->albedo);
+    if (surface->solid)
+        memcpy(surface->albedo, walk->scene->solid_color[met->mesh - 1], sizeof surface->albedo);
+    else
+        walk->scene->albedo(walk->scene->user, walk->scratch, answer->s, surface->albedo);
 }
 
 /* Dims what came `length` through the medium. */
@@ -67,21 +78,22 @@ static void surface_color(effects_walk *walk, const effects_surface *surface, co
 static double ray_color(effects_walk *walk, const effects_surface *from, vec3 way, uint32_t path, bool traced,
                         const allowance *left, double color[3])
 {
-    reference_answer answer = {.hit = {.t = INFINITY}};
+    effects_met met = {.answer = {.hit = {.t = INFINITY}}};
+    const mns_hit *hit = &met.answer.hit;
     effects_surface surface;
     if (traced && largest(left->share) >= optics_least_share() &&
-        !effects_ask(walk, from, way, INFINITY, &answer))
+        !effects_ask(walk, from, way, INFINITY, &met))
         return INFINITY;
-    if (!answer.hit.hit) {
+    if (!hit->hit) {
         environment_color(&walk->scene->environment, way, color);
         return INFINITY;
     }
-    surface_take(walk, way, &answer, path, &surface);
+    surface_take(walk, way, effects_inwards(from, way), &met, path, &surface);
     allowance rest = *left;
-    if (surface.inside) absorb(walk->scene->plan, answer.hit.t, rest.share);
+    if (surface.inside) absorb(walk->scene->plan, hit->t, rest.share);
     surface_color(walk, &surface, &rest, false, color);
-    if (surface.inside) absorb(walk->scene->plan, answer.hit.t, color);
-    return answer.hit.t;
+    if (surface.inside) absorb(walk->scene->plan, hit->t, color);
+    return hit->t;
 }
 
 /* What a surface does to the light: shares, and how its rays are bent. */
@@ -95,7 +107,8 @@ static optics optics_of(const mns_plan *plan, const effects_surface *surface)
     const mns_effects *e = &plan->look.effects;
     optics o = {
         .cosine = fmin(vec3_dot(surface->normal, surface->to_viewer), 1), .ratio = 1, .mirrored = e->mirror};
-    if (!(plan->features & FEATURE_FRESNEL)) return o;
+    if (surface->solid) o.mirrored = 0;
+    if (surface->solid || !(plan->features & FEATURE_FRESNEL)) return o;
     o.ratio = surface->inside ? 1 / e->index : e->index;
     o.total = optics_beyond(o.ratio, o.cosine) <= 0;
     o.mirrored += (1 - e->mirror) * optics_fresnel(o.ratio, o.cosine);
@@ -140,8 +153,8 @@ static void surface_color(effects_walk *walk, const effects_surface *surface, co
 {
     const mns_plan *plan = walk->scene->plan;
     optics o = optics_of(plan, surface);
-    double passes = plan->look.effects.transmission * (1 - o.mirrored);
-    double shaded = (1 - plan->look.effects.transmission) * (1 - o.mirrored);
+    double transmission = surface->solid ? 0 : plan->look.effects.transmission;
+    double passes = transmission * (1 - o.mirrored), shaded = (1 - transmission) * (1 - o.mirrored);
     double mirror = INFINITY, refracted = INFINITY;
     effects_lit lit;
     effects_light(walk, surface, shaded > 0, &lit);
@@ -154,8 +167,24 @@ static void surface_color(effects_walk *walk, const effects_surface *surface, co
     pixel->mirror = mirror, pixel->refracted = refracted;
 }
 
-bool effects_shade(const effects_scene *scene, reference_scratch *scratch, vec3 way,
-                   const reference_answer *first, effects_pixel *pixel)
+bool effects_first(const effects_scene *scene, reference_scratch *scratch, vec3 way, effects_met *first)
+{
+    reference_query query = {.reach = INFINITY};
+    vec3_store(query.origin, scene->plan->frame.eye);
+    vec3_store(query.direction, way);
+    return effects_meet(scene->reference, scene->solids, scratch, &query, (vec3){0, 0, 0}, first);
+}
+
+/* Whether the eye's ray along `way` begins in the medium. */
+static bool begins_within(const effects_scene *scene, vec3 way)
+{
+    const plan_facts *facts = &scene->plan->facts;
+    double above = facts->eye_value - scene->reference->field->iso;
+    return above > 0 || (above == 0 && vec3_dot(vec3_load(facts->eye_gradient), way) > 0);
+}
+
+bool effects_shade(const effects_scene *scene, reference_scratch *scratch, vec3 way, const effects_met *first,
+                   effects_pixel *pixel)
 {
     const mns_plan *plan = scene->plan;
     effects_walk walk = {.scene = scene, .scratch = scratch, .pixel = pixel};
@@ -165,16 +194,17 @@ bool effects_shade(const effects_scene *scene, reference_scratch *scratch, vec3 
     pixel->shadow = pixel->occlusion = 1;
     pixel->mirror = pixel->refracted = INFINITY;
     pixel->rays = 0;
-    if (!first->hit.hit) {
+    const mns_hit *hit = &first->answer.hit;
+    if (!hit->hit) {
         pixel->color[3] = plan->look.background[3];
         environment_color(&scene->environment, way, pixel->color);
         for (int c = 0; c < 3; c++) pixel->color[c] *= pixel->color[3];
         return true;
     }
-    surface_take(&walk, way, first, 1, &surface);
-    if (surface.inside) absorb(plan, first->hit.t, all.share);
+    surface_take(&walk, way, begins_within(scene, way), first, 1, &surface);
+    if (surface.inside) absorb(plan, hit->t, all.share);
     surface_color(&walk, &surface, &all, true, pixel->color);
-    if (surface.inside) absorb(plan, first->hit.t, pixel->color);
+    if (surface.inside) absorb(plan, hit->t, pixel->color);
     pixel->color[3] = 1;
     return !walk.failed;
 }

@@ -4,7 +4,7 @@
 #define MNS_EFFECTS_EFFECTS_H
 
 #include "effects/environment.h"
-#include "reference/reference.h"
+#include "effects/meet.h"
 
 /* The linear colour of the surface where a ray met it, whose chords are still in the scratch. */
 typedef void effects_albedo(const void *user, const reference_scratch *scratch, double s, double color[3]);
@@ -13,15 +13,20 @@ typedef void effects_albedo(const void *user, const reference_scratch *scratch, 
 typedef struct effects_scene {
     const mns_plan *plan;
     const mns_reference *reference;
+    const solid_set *solids;  /* NULL: none */
+    double (*solid_color)[3]; /* a mesh of the plan's, linear */
     effects_albedo *albedo;
     const void *user;
     environment environment;
     double (*radiance)[3]; /* a light of the plan's: colour times strength, linear */
 } effects_scene;
 
-/* Reads the environment's map. End with effects_end, also after a failure. Errors: as image_picture_read. */
+/* Reads the environment's map; `solids` are the plan's meshes, NULL where it has none. End with effects_end,
+ * also after a failure. Errors: as image_picture_read. */
 mns_status effects_begin(effects_scene *scene, const mns_plan *plan, const mns_reference *reference,
-                         effects_albedo *albedo, const void *user, mns_error *error);
+                         const solid_set *solids, effects_albedo *albedo, const void *user, mns_error *error);
+/* What the ray from the eye along `way` (unit) meets first. False: out of memory. */
+bool effects_first(const effects_scene *scene, reference_scratch *scratch, vec3 way, effects_met *first);
 void effects_end(effects_scene *scene);
 
 /* One sample of a pixel, and what it comes to. */
@@ -36,7 +41,7 @@ typedef struct effects_pixel {
 
 /* Colours the pixel whose ray along `way` (unit) from the eye found `first`, the last that was asked of the
  * scratch. False: out of memory. */
-bool effects_shade(const effects_scene *scene, reference_scratch *scratch, vec3 way,
-                   const reference_answer *first, effects_pixel *pixel);
+bool effects_shade(const effects_scene *scene, reference_scratch *scratch, vec3 way, const effects_met *first,
+                   effects_pixel *pixel);
 
 #endif

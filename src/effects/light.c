@@ -6,26 +6,33 @@
 
 /* ---- Rays that only ask whether they meet anything ---- */
 
-bool effects_ask(effects_walk *walk, const effects_surface *surface, vec3 way, double reach,
-                 reference_answer *answer)
+bool effects_inwards(const effects_surface *surface, vec3 way)
+{
+    return (vec3_dot(way, surface->normal) < 0) != surface->inside;
+}
+
+bool effects_ask(effects_walk *walk, const effects_surface *surface, vec3 way, double reach, effects_met *met)
 {
     reference_query query = {.reach = reach};
-    bool inwards = (vec3_dot(way, surface->normal) < 0) != surface->inside;
-    query.side = inwards ? 1 : -1;
+    /* Where a solid stands, f tells the side by itself. */
+    if (!surface->solid) query.side = effects_inwards(surface, way) ? 1 : -1;
+    vec3 leaves = surface->solid ? surface->normal : (vec3){0, 0, 0};
     vec3_store(query.origin, surface->at);
     vec3_store(query.direction, way);
     walk->pixel->rays++;
-    walk->failed = walk->failed || !reference_ask(walk->scene->reference, walk->scratch, &query, answer);
+    const effects_scene *scene = walk->scene;
+    walk->failed =
+        walk->failed || !effects_meet(scene->reference, scene->solids, walk->scratch, &query, leaves, met);
     if (walk->failed) return false;
-    walk->pixel->certain = walk->pixel->certain && answer->hit.certain;
+    walk->pixel->certain = walk->pixel->certain && met->answer.hit.certain;
     return true;
 }
 
 /* 1 where nothing stands in the ray's way up to `reach`, else 0. */
 static double is_free(effects_walk *walk, const effects_surface *surface, vec3 way, double reach)
 {
-    reference_answer answer;
-    return effects_ask(walk, surface, way, reach, &answer) && !answer.hit.hit ? 1 : 0;
+    effects_met met;
+    return effects_ask(walk, surface, way, reach, &met) && !met.answer.hit.hit ? 1 : 0;
 }
 
 static uint32_t key_of(const effects_walk *walk, const effects_surface *surface, uint32_t purpose)
@@ -117,13 +124,13 @@ static void add_light(effects_walk *walk, const effects_surface *surface, uint32
     if (!(facing > 0)) return;
     double share = visible(walk, surface, index, way, distance);
     if (plan->light[index].kind != MNS_LIGHT_HEAD) lit->shadow += share;
-    if (look->specular > 0) {
+    if (look->specular > 0 && !surface->solid) {
         vec3 half = vec3_unit(vec3_add(way, surface->to_viewer));
         shine = look->specular * pow(fmax(vec3_dot(surface->normal, half), 0), look->shininess);
     }
     if (look->shading == MNS_SHADING_CEL) {
         facing = banded(facing, look->cel_bands);
-        shine = shine >= 0.5 * look->specular ? look->specular : 0;
+        shine = shine > 0 && shine >= 0.5 * look->specular ? look->specular : 0;
     }
     for (int c = 0; c < 3; c++) {
         lit->shaded[c] += look->diffuse * share * radiance[c] * facing;
@@ -145,8 +152,8 @@ void effects_light(effects_walk *walk, const effects_surface *surface, bool need
     for (int c = 0; c < 3; c++)
         lit->shaded[c] = surface->albedo[c] * (plan->look.ambient * lit->occlusion + lit->shaded[c]);
     /* The dark contour of cel shading (glsl/shade.frag.glsl). */
-    if (plan->look.shading != MNS_SHADING_CEL || vec3_dot(surface->normal, surface->to_viewer) >= 0.22)
-        return;
+    bool outlined = plan->look.shading == MNS_SHADING_CEL && !surface->solid;
+    if (!outlined || vec3_dot(surface->normal, surface->to_viewer) >= 0.22) return;
     memset(lit->shaded, 0, sizeof lit->shaded);
     memset(lit->shine, 0, sizeof lit->shine);
 }

@@ -11,10 +11,11 @@ typedef struct effects_walk {
     bool failed; /* out of memory */
 } effects_walk;
 
-/* A place of the surface that some ray met. */
+/* A place of the surface, or of a solid, that some ray met. */
 typedef struct effects_surface {
     vec3 at, normal, to_viewer; /* units; the normal is turned to the viewer */
     bool inside;                /* the viewer is in the medium */
+    bool solid;                 /* of a mesh: all that leaves it stays on the viewer's side */
     double albedo[3];
     uint32_t path; /* its number on the way (glsl/samples.glsl) */
 } effects_surface;
@@ -30,6 +31,8 @@ void effects_light(effects_walk *walk, const effects_surface *surface, bool need
 /* Asks for the ray that leaves a surface along the unit direction `way`, up to `reach`. False: out of memory,
  * noted in the walk. */
 bool effects_ask(effects_walk *walk, const effects_surface *surface, vec3 way, double reach,
-                 reference_answer *answer);
+                 effects_met *met);
+/* Whether such a ray goes through the medium. */
+bool effects_inwards(const effects_surface *surface, vec3 way);
 
 #endif

@@ -5,7 +5,7 @@
 #include "gl/device.h"
 
 enum {
-    STATE_TEXTURES = 10,
+    STATE_TEXTURES = 12,
     STATE_IMAGES = 5,
     STATE_STORAGE = 8,
     STATE_UNIFORMS = 3,

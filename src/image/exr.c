@@ -2,13 +2,14 @@
 
 #include <string.h>
 
-const char *const image_optional_names[IMAGE_OPTIONAL] = {"t.err",    "shadow",    "occlusion",
-                                                          "mirror.t", "refract.t", "certain.effects"};
+const char *const image_optional_names[IMAGE_OPTIONAL] = {
+    "t.err", "shadow", "occlusion", "mirror.t", "refract.t", "certain.effects", "mesh"};
 
 float **image_optional(mns_image *image, int index)
 {
     float **const planes[IMAGE_OPTIONAL] = {&image->t_error,  &image->shadow,    &image->occlusion,
-                                            &image->mirror_t, &image->refract_t, &image->effects_certain};
+                                            &image->mirror_t, &image->refract_t, &image->effects_certain,
+                                            &image->mesh};
     return planes[index];
 }
 

@@ -7,7 +7,7 @@
 
 #include <OpenEXR/openexr.h>
 
-enum { IMAGE_CHANNELS_MOST = 20 };
+enum { IMAGE_CHANNELS_MOST = 24 };
 
 /* One channel of the file, and where its value lies in an image: in `plane`, `stride` floats a pixel, from
  * `offset`. */
@@ -24,7 +24,7 @@ typedef struct image_channels {
 
 /* Planes that not every image has; and the first of the counts of a ray's work, which come together. */
 #define IMAGE_WORK "work.balls"
-enum { IMAGE_OPTIONAL = 6 };
+enum { IMAGE_OPTIONAL = 7 };
 extern const char *const image_optional_names[IMAGE_OPTIONAL];
 /* Where an image keeps optional plane `index`. */
 float **image_optional(mns_image *image, int index);

@@ -45,6 +45,7 @@ void mns_image_destroy(mns_image *image)
     free(image->mirror_t);
     free(image->refract_t);
     free(image->effects_certain);
+    free(image->mesh);
     free(image);
 }
 

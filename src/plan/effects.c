@@ -8,7 +8,7 @@
 /* Of a light's place and radius, in the field's unit: what doubles can square. */
 #define LIGHT_MOST 1e60
 
-enum { LIGHTS_MOST = 256, RAYS_MOST = 4096, REFLECTIONS_MOST = 8, REFRACTIONS_MOST = 16 };
+enum { LIGHTS_MOST = 256, MESHES_MOST = 256, RAYS_MOST = 4096, REFLECTIONS_MOST = 8, REFRACTIONS_MOST = 16 };
 
 /* ---- Checks ---- */
 
@@ -119,6 +119,38 @@ static mns_status take_environment(mns_plan *plan, mns_error *error)
     return plan->environment ? MNS_OK : status_no_memory(error, "while planning a frame");
 }
 
+/* The plan's own meshes. */
+static mns_status take_meshes(mns_plan *plan, mns_error *error)
+{
+    const mns_mesh *from = plan->look.meshes;
+    size_t count = plan->look.mesh_count;
+    plan->look.meshes = NULL; /* was borrowed for the call */
+    plan->look.mesh_count = 0;
+    if (!count) return MNS_OK;
+    if (!from) return status_fail(error, MNS_ERROR_USAGE, "look: %zu meshes, and no array of them", count);
+    if (count > MESHES_MOST)
+        return status_fail(error, MNS_ERROR_UNSUPPORTED, "look: %zu meshes; at most %d can be drawn", count,
+                           MESHES_MOST);
+    plan->look.meshes = plan->mesh = memory_array(count, sizeof *plan->mesh);
+    if (!plan->mesh) return status_no_memory(error, "while planning a frame");
+    for (size_t i = 0; i < count; i++) {
+        mns_mesh *mesh = &plan->mesh[i];
+        if (!from[i].file || !*from[i].file)
+            return status_fail(error, MNS_ERROR_USAGE, "mesh %zu: no file's name", i);
+        *mesh = from[i];
+        for (int c = 0; c < 3; c++) {
+            if (!mesh->has_color) mesh->color[c] = 0.8;
+            if (!is_share(mesh->color[c]))
+                return status_fail(error, MNS_ERROR_USAGE, "mesh %zu: colours are numbers from 0 to 1", i);
+        }
+        mesh->file = strdup(from[i].file);
+        if (!mesh->file) return status_no_memory(error, "while planning a frame");
+        plan->look.mesh_count++;
+    }
+    plan->features |= FEATURE_SOLIDS;
+    return MNS_OK;
+}
+
 /* Lengths to the field's own unit, in which light travels. */
 static mns_status enter_unit(mns_plan *plan, mns_error *error)
 {
@@ -162,6 +194,7 @@ static void fill_effects(mns_look *look, const mns_field *field)
 static bool is_shaded(const mns_plan *plan)
 {
     const mns_effects *e = &plan->look.effects;
+    if (plan->features & FEATURE_SOLIDS) return true;
     return e->mirror < 1 && !(plan->features & FEATURE_REFRACTION && e->transmission == 1);
 }
 
@@ -216,11 +249,13 @@ static void find_effects(mns_plan *plan)
 mns_status plan_effects(mns_plan *plan, const mns_field *field, mns_error *error)
 {
     const uint64_t lit = FEATURE_LIGHTS | FEATURE_POINT_LIGHTS | FEATURE_SHADOWS | FEATURE_MIRROR |
-                         FEATURE_REFRACTION | FEATURE_OCCLUSION | FEATURE_ENVIRONMENT | FEATURE_SKY;
+                         FEATURE_REFRACTION | FEATURE_OCCLUSION | FEATURE_ENVIRONMENT | FEATURE_SKY |
+                         FEATURE_SOLIDS;
     mns_status status = check_effects(&plan->look.effects, error);
     if (!status) status = take_lights(plan, error);
     if (!status) status = enter_unit(plan, error);
     if (!status) status = take_environment(plan, error);
+    if (!status) status = take_meshes(plan, error);
     if (status) return status;
     fill_effects(&plan->look, field);
     find_lights(plan);
@@ -271,6 +306,7 @@ void plan_effects_left_out(mns_plan *plan)
         {FEATURE_OCCLUSION, "occlusion", no_occlusion(plan)},
         {FEATURE_ENVIRONMENT, "an environment's map",
          sky ? "the sky is built in" : "the background has one colour"},
+        {FEATURE_SOLIDS, "meshes", unasked},
         {FEATURE_SKY, "a built-in sky", map ? "the environment is a map" : "the background has one colour"},
     };
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)

@@ -14,7 +14,7 @@ static const char *const feature_names[FEATURE_COUNT] = {
     [33] = "lights",     [34] = "point_lights", [35] = "shadows",    [36] = "soft_shadows",
     [37] = "mirror",     [38] = "fresnel",      [39] = "refraction", [40] = "absorption",
     [41] = "occlusion",  [42] = "environment",  [43] = "sky",        [44] = "rays",
-    [45] = "squares",
+    [45] = "squares",    [46] = "solids",
 };
 
 /* The numbers of the effects that are there. */
@@ -38,6 +38,7 @@ static void print_effects(FILE *out, const mns_plan *plan)
                 e->occlusion_reach * plan->unit);
     if (f & FEATURE_SKY) fprintf(out, ", environment sky");
     if (f & FEATURE_ENVIRONMENT) fprintf(out, ", environment %s", plan->environment);
+    for (size_t i = 0; i < plan->look.mesh_count; i++) fprintf(out, ", mesh %s", plan->mesh[i].file);
     fprintf(out, ", seed %lu", (unsigned long)e->seed);
 }
 

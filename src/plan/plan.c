@@ -231,6 +231,7 @@ static void plan_passes(mns_plan *plan)
         {"shuffle", f & FEATURE_SHUFFLE},
         {"cast", true},
         {"resolve", true},
+        {"solids", f & FEATURE_SOLIDS},
         {"effects", f & FEATURE_LIT},
         {"shade", true},
         {"host_draw", f & FEATURE_HOST},
@@ -334,6 +335,8 @@ void mns_plan_destroy(mns_plan *plan)
     free(plan->text);
     free(plan->light);
     free(plan->environment);
+    for (size_t i = 0; plan->mesh && i < plan->look.mesh_count; i++) free((char *)plan->mesh[i].file);
+    free(plan->mesh);
     free(plan);
 }
 

@@ -52,7 +52,8 @@
 #define FEATURE_SKY          (UINT64_C(1) << 43) /* the built-in sky in its place */
 #define FEATURE_RAYS         (UINT64_C(1) << 44) /* some rays beyond the first are traced, on the GPU */
 #define FEATURE_SQUARES      (UINT64_C(1) << 45) /* only squares of pixels that hold listed tiles are cast */
-enum { FEATURE_COUNT = 46 };
+#define FEATURE_SOLIDS       (UINT64_C(1) << 46) /* meshes stand beside the surface */
+enum { FEATURE_COUNT = 47 };
 
 enum { PLAN_MOST = 16 }; /* passes; parts left out are at most PLAN_PARTS */
 enum { PLAN_PARTS = 40 };
@@ -92,6 +93,7 @@ struct mns_plan {
     mns_look look;       /* resolved, lengths in the field's unit; its lights are those of `light` */
     mns_light *light;    /* the plan's own, at least one */
     char *environment;   /* a map's file, where ENVIRONMENT */
+    mns_mesh *mesh;      /* the plan's own, look.mesh_count of them; their file names are its own too */
     size_t color_column; /* where COLORS */
     double color_range[2];
     size_t ball_floats;    /* a ball in the GPU's buffer */
@@ -193,6 +195,7 @@ typedef enum plan_shader {
     SHADER_TREE,
     SHADER_TREE_WALK,    /* fbvh_resolve.glsl in float */
     SHADER_TREE_RESOLVE, /* and in doubles */
+    SHADER_SOLIDS_FIRST,
     SHADER_EFFECTS_LIST,
     SHADER_EFFECTS_PLAIN,   /* effects.glsl without rays */
     SHADER_EFFECTS_ANY,     /* with those rays alone that bounds can tell of */

@@ -1,5 +1,7 @@
 #include "plan/plan.h"
 
+#include "solid/solid.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -18,7 +20,7 @@ typedef struct shader_part {
      FEATURE_EYE_INSIDE | FEATURE_EYE_ON)
 #define READS_LIT                                                                                            \
     (FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_SPECULAR | FEATURE_MIRROR | FEATURE_FRESNEL |   \
-     FEATURE_ENVIRONMENT | FEATURE_SKY)
+     FEATURE_ENVIRONMENT | FEATURE_SKY | FEATURE_SOLIDS)
 #define READS_WALK                                                                                           \
     (READS_LIT | FEATURE_SHADOWS | FEATURE_SOFT_SHADOWS | FEATURE_REFRACTION | FEATURE_ABSORPTION |          \
      FEATURE_OCCLUSION)
@@ -44,6 +46,7 @@ static const shader_part parts[SHADER_COUNT] = {
                      READS_TREE | FEATURE_SOLVER | FEATURE_TEXELS | FEATURE_COUNTERS},
     [SHADER_TREE_WALK] = {NULL, NULL, "fbvh_resolve.glsl", READS_TREE},
     [SHADER_TREE_RESOLVE] = {NULL, NULL, "fbvh_resolve.glsl", READS_TREE},
+    [SHADER_SOLIDS_FIRST] = {NULL, NULL, "solids_first.glsl", 0},
     [SHADER_EFFECTS_LIST] = {NULL, NULL, "effects_list.glsl", FEATURE_ENVIRONMENT | FEATURE_SKY},
     [SHADER_EFFECTS_PLAIN] = {NULL, NULL, "effects.glsl", READS_LIT},
     [SHADER_EFFECTS_ANY] = {NULL, NULL, "effects.glsl",
@@ -108,6 +111,7 @@ static void add_features(char *defines, uint64_t f)
         {FEATURE_ENVIRONMENT, "ENVIRONMENT"},
         {FEATURE_SKY, "SKY"},
         {FEATURE_RAYS, "RAYS"},
+        {FEATURE_SOLIDS, "SOLIDS"},
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (f & names[i].bit) add(defines, names[i].name, 1);
@@ -177,6 +181,7 @@ static uint64_t add_paths(const mns_plan *plan, plan_shader shader, char *define
 {
     add(defines, "PATHS", 1);
     add(defines, "PATH_STACK", path_stack(plan, f));
+    if (f & FEATURE_SOLIDS) add(defines, "SOLID_DEPTH", SOLID_DEPTH);
     if (shader == SHADER_EFFECTS_PLAIN) return f;
     add(defines, "RAYS_NOW", 1);
     if (plan->look.light_count > 1) add(defines, "LIGHTS_MANY", 1);
@@ -210,6 +215,10 @@ void plan_shader_defines(const mns_plan *plan, plan_shader shader, char defines[
     defines[0] = '\0';
     if (shader >= SHADER_EFFECTS_PLAIN && shader <= SHADER_EFFECTS_RESOLVE)
         f = add_paths(plan, shader, defines, f);
+    if (shader == SHADER_SOLIDS_FIRST) {
+        add(defines, "MNS_DOUBLE", 1);
+        add(defines, "SOLID_DEPTH", SOLID_DEPTH);
+    }
     if (shader == SHADER_CAST || shader == SHADER_WALK || shader == SHADER_RESOLVE || is_tree(shader))
         add_ray(plan, shader, defines, f);
     if (shader == SHADER_CORE_QUADS || shader == SHADER_CORE_POINTS) {
@@ -233,6 +242,7 @@ bool plan_needs(const mns_plan *plan, plan_shader shader)
     if (f & FEATURE_REFERENCE) return shader == SHADER_SHADE;
     if (shader == SHADER_EFFECTS || shader == SHADER_EFFECTS_RESOLVE) return f & FEATURE_RAYS;
     if (shader == SHADER_EFFECTS_ANY) return f & FEATURE_RAYS && bounds_tell(f);
+    if (shader == SHADER_SOLIDS_FIRST) return f & FEATURE_SOLIDS;
     if (shader == SHADER_EFFECTS_LIST) return f & FEATURE_LIT;
     if (shader == SHADER_EFFECTS_PLAIN) return f & FEATURE_LIT && !(f & FEATURE_RAYS);
     if (is_tree(shader)) return f & FEATURE_TREE;

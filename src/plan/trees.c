@@ -55,11 +55,13 @@ static void plan_rest(mns_plan *plan, bool host)
 static void plan_passes(mns_plan *plan)
 {
     bool host = plan->features & FEATURE_HOST, lit = plan->features & FEATURE_LIT;
+    bool solids = plan->features & FEATURE_SOLIDS;
     const struct {
         const char *name;
         bool wanted;
-    } all[] = {{"build", true},   {"upload", true}, {"host_depth", host}, {"trace", true},
-               {"resolve", true}, {"effects", lit}, {"shade", true},      {"host_draw", host}};
+    } all[] = {{"build", true},  {"upload", true},  {"host_depth", host},
+               {"trace", true},  {"resolve", true}, {"solids", solids},
+               {"effects", lit}, {"shade", true},   {"host_draw", host}};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i].wanted) plan->pass[plan->pass_count++] = all[i].name;
 }

@@ -13,6 +13,7 @@ typedef struct draw_tracer {
     float (*label)[3];         /* linear colours of the column's labels (LABELS) */
     struct effects_scene *effects;
     float *lit, *terms, *settled; /* 4, 4 and 1 floats a pixel, with LIT: see mns_frame */
+    uint32_t *mesh;               /* with SOLIDS */
 } draw_tracer;
 
 typedef struct draw {
@@ -66,7 +67,9 @@ mns_status draw_tree_sample(draw *d, mns_error *error);
  * MEMORY, GL. */
 mns_status draw_tree_low(draw *d, mns_phase phase, mns_error *error);
 
-/* effects.c: what a frame's light beyond the first hit needs, a list's tree among it; one sample's light,
+/* effects.c: the meshes of the look, read where they are not there yet. Errors: as solid_read. */
+mns_status draw_solids_begin(draw *d, mns_error *error);
+/* What a frame's light beyond the first hit needs, a list's tree among it; one sample's light,
  * from the planes that are there. Errors: MEMORY, UNSUPPORTED, GL; of the environment's file. */
 mns_status draw_effects_begin(draw *d, mns_error *error);
 mns_status draw_effects_sample(draw *d, const double jitter[2], mns_error *error);

@@ -73,11 +73,17 @@ uint64_t draw_buffers_count(const mns_renderer *r)
 {
     const list_passes *p = &r->passes;
     const trace_passes *t = &r->trace;
-    const gl_buffer *all[] = {
-        &p->balls,      &p->balls_low,     &p->cores,        &p->colors,    &p->nodes, &p->counter,
-        &p->redo,       &p->view,          &p->view_wide,    &p->far_block, &r->shade, &p->backwards,
-        &p->tile_heads, &t->balls,         &t->balls_low,    &t->colors,    &t->pairs, &t->leaves,
-        &t->references, &r->effects.block, &r->effects.store};
+    const gl_buffer *all[] = {&p->balls,         &p->balls_low,
+                              &p->cores,         &p->colors,
+                              &p->nodes,         &p->counter,
+                              &p->redo,          &p->view,
+                              &p->view_wide,     &p->far_block,
+                              &r->shade,         &p->backwards,
+                              &p->tile_heads,    &t->balls,
+                              &t->balls_low,     &t->colors,
+                              &t->pairs,         &t->leaves,
+                              &t->references,    &r->effects.block,
+                              &r->effects.store, &r->effects.solids.buffer};
     uint64_t count = 0;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) count += all[i]->id != 0;
     return count;

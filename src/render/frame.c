@@ -19,12 +19,13 @@ mns_status mns_frame_create(mns_renderer *renderer, mns_frame **frame, mns_error
 static void drop_textures(mns_frame *f)
 {
     const GladGLContext *gl = &f->renderer->device.gl;
-    GLuint textures[] = {f->t, f->normal, f->color, f->shaded, f->work, f->lit, f->terms, f->settled},
+    GLuint textures[] = {f->t,   f->normal, f->color,   f->shaded, f->work,
+                         f->lit, f->terms,  f->settled, f->mesh},
            targets[] = {f->planes_target, f->shaded_target, f->lit_target};
     gl->DeleteTextures(sizeof textures / sizeof *textures, textures);
     gl->DeleteFramebuffers(sizeof targets / sizeof *targets, targets);
     f->t = f->normal = f->color = f->shaded = f->work = f->planes_target = f->shaded_target = 0;
-    f->lit = f->terms = f->settled = f->lit_target = 0;
+    f->lit = f->terms = f->settled = f->mesh = f->lit_target = 0;
 }
 
 void mns_frame_destroy(mns_frame *f)
@@ -77,8 +78,8 @@ mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
     bool work = plan->features & FEATURE_COUNTERS;
     f->has_work = work;
     if (same && work && !f->work) f->work = plane_make(gl, GL_RGBA32F, width, height);
-    bool lit = plan->features & FEATURE_LIT;
-    if (same && f->has_color == color && f->has_lit == lit) return MNS_OK;
+    bool lit = plan->features & FEATURE_LIT, mesh = plan->features & FEATURE_SOLIDS;
+    if (same && f->has_color == color && f->has_lit == lit && f->has_mesh == mesh) return MNS_OK;
     drop_textures(f);
     f->t = plane_make(gl, GL_RG32F, width, height);
     f->normal = plane_make(gl, GL_RGBA32F, width, height);
@@ -92,6 +93,7 @@ mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
         GLuint light[] = {f->lit, f->terms, f->settled};
         f->lit_target = target_make(gl, light, 3);
     }
+    if (mesh) f->mesh = plane_make(gl, GL_R32UI, width, height);
     GLuint planes[] = {f->t, f->normal, f->color};
     f->planes_target = target_make(gl, planes, color ? 3 : 2);
     f->shaded_target = target_make(gl, &f->shaded, 1);
@@ -99,6 +101,7 @@ mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
     f->height = height;
     f->has_color = color;
     f->has_lit = lit;
+    f->has_mesh = mesh;
     mns_status status = gl_check(device, "frame", error);
     if (status) drop_textures(f);
     return status;
@@ -156,6 +159,7 @@ static mns_image *image_make(const mns_frame *f)
         .occlusion = plane_or_none(features & FEATURE_OCCLUSION, pixels, 1, &failed),
         .mirror_t = plane_or_none(features & FEATURE_MIRROR, pixels, 1, &failed),
         .refract_t = plane_or_none(features & FEATURE_REFRACTION, pixels, 1, &failed),
+        .mesh = plane_or_none(features & FEATURE_SOLIDS, pixels, 1, &failed),
         .effects_certain = plane_or_none(features & FEATURE_LIT, pixels, 1, &failed),
     };
     if (!failed) return image;
@@ -188,6 +192,19 @@ static void unpack_terms(const mns_frame *f, mns_image *image, float *row_store)
                width * sizeof *row_store);
 }
 
+/* Which mesh is seen where. */
+static void unpack_mesh(const mns_frame *f, mns_image *image, float *row_store)
+{
+    const GladGLContext *gl = &f->renderer->device.gl;
+    size_t width = (size_t)f->width, height = (size_t)f->height;
+    uint32_t *whole = (uint32_t *)(void *)row_store;
+    gl->BindTexture(GL_TEXTURE_2D, f->mesh);
+    gl->GetTexImage(GL_TEXTURE_2D, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, whole);
+    gl->BindTexture(GL_TEXTURE_2D, 0);
+    for (size_t i = 0; i < width * height; i++)
+        image->mesh[i] = (float)whole[(height - 1 - i / width) * width + i % width];
+}
+
 static void unpack(const mns_frame *f, mns_image *image, float *row_store)
 {
     const GladGLContext *gl = &f->renderer->device.gl;
@@ -212,6 +229,7 @@ static void unpack(const mns_frame *f, mns_image *image, float *row_store)
             image->certain[y * width + x] = from[3];
         }
     if (f->has_lit) unpack_terms(f, image, row_store);
+    if (image->mesh) unpack_mesh(f, image, row_store);
     if (!f->has_work) return;
     fetch(gl, f->work, GL_RGBA, row_store);
     for (size_t y = 0; y < height; y++)

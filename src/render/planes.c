@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-void frame_send(mns_frame *frame, GLuint texture, GLenum format, const float *data)
+static void send(mns_frame *frame, GLuint texture, GLenum format, GLenum type, const void *data)
 {
     enum { UNPACK = 5 };
     static const GLenum name[UNPACK] = {GL_UNPACK_ALIGNMENT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS,
@@ -18,9 +18,19 @@ void frame_send(mns_frame *frame, GLuint texture, GLenum format, const float *da
         gl->PixelStorei(name[i], plain[i]);
     }
     gl->BindTexture(GL_TEXTURE_2D, texture);
-    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, frame->width, frame->height, format, GL_FLOAT, data);
+    gl->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, frame->width, frame->height, format, type, data);
     gl->BindTexture(GL_TEXTURE_2D, 0);
     for (int i = 0; i < UNPACK; i++) gl->PixelStorei(name[i], before[i]);
+}
+
+void frame_send(mns_frame *frame, GLuint texture, GLenum format, const float *data)
+{
+    send(frame, texture, format, GL_FLOAT, data);
+}
+
+void frame_send_whole(mns_frame *frame, GLuint texture, const uint32_t *data)
+{
+    send(frame, texture, GL_RED_INTEGER, GL_UNSIGNED_INT, data);
 }
 
 /* The last two of a texture's `channels` times `scale`. On the CPU: few frames need it, and a driver may take

@@ -103,8 +103,8 @@ static void put_pixel(draw *d, size_t at, size_t from_top, const mns_hit *hit)
 }
 
 /* The pixel's colour and terms, by rays from what its first found. False: out of memory. */
-static bool light_pixel(draw *d, reference_scratch *scratch, size_t at, vec3 way,
-                        const reference_answer *first, row_counts *counts)
+static bool light_pixel(draw *d, reference_scratch *scratch, size_t at, vec3 way, const effects_met *first,
+                        row_counts *counts)
 {
     size_t width = (size_t)d->plan->frame.width, height = (size_t)d->plan->frame.height;
     draw_tracer *tracer = &d->tracer;
@@ -116,9 +116,19 @@ static bool light_pixel(draw *d, reference_scratch *scratch, size_t at, vec3 way
     terms[0] = (float)pixel.shadow, terms[1] = (float)pixel.occlusion;
     terms[2] = (float)pixel.mirror, terms[3] = (float)pixel.refracted;
     tracer->settled[at] = pixel.certain ? 1 : 0;
+    if (tracer->mesh) tracer->mesh[at] = (uint32_t)first->mesh;
     counts->effects_rays += pixel.rays;
     counts->effects_undecided += !pixel.certain;
     return true;
+}
+
+static bool first_hit(const draw *d, reference_scratch *scratch, vec3 way, effects_met *met)
+{
+    reference_query query = {.reach = INFINITY};
+    if (d->tracer.effects) return effects_first(d->tracer.effects, scratch, way, met);
+    vec3_store(query.origin, d->plan->frame.eye);
+    vec3_store(query.direction, way);
+    return effects_meet(d->tracer.reference, NULL, scratch, &query, (vec3){0, 0, 0}, met);
 }
 
 /* Row y from the bottom. False: out of memory. */
@@ -127,22 +137,20 @@ static bool trace_row(draw *d, reference_scratch *scratch, int y, const double j
     const view_frame *frame = &d->plan->frame;
     bool lit = d->plan->features & FEATURE_LIT, colors = d->plan->features & FEATURE_COLORS && !lit;
     size_t width = (size_t)frame->width, from_top = (size_t)(frame->height - 1 - y);
-    reference_query query = {.reach = INFINITY};
-    vec3_store(query.origin, frame->eye);
     for (size_t x = 0; x < width; x++) {
         size_t at = (size_t)y * width + x;
-        reference_answer answer;
+        effects_met met;
+        const mns_hit *hit = &met.answer.hit;
         vec3 way = view_direction(frame, (double)x + 0.5 + jitter[0], (double)from_top + 0.5 - jitter[1]);
-        vec3_store(query.direction, way);
-        if (!reference_ask(d->tracer.reference, scratch, &query, &answer)) return false;
-        counts->hits += answer.hit.hit;
-        counts->undecided += !answer.hit.certain;
-        put_pixel(d, at, from_top * width + x, &answer.hit);
-        if (lit && !light_pixel(d, scratch, at, way, &answer, counts)) return false;
+        if (!first_hit(d, scratch, way, &met)) return false;
+        counts->hits += hit->hit;
+        counts->undecided += !hit->certain;
+        put_pixel(d, at, from_top * width + x, hit);
+        if (lit && !light_pixel(d, scratch, at, way, &met, counts)) return false;
         if (!colors) continue;
         float *color = d->tracer.color + 4 * at;
         memset(color, 0, 4 * sizeof *color);
-        if (answer.hit.hit) blend(d, scratch, answer.s, color);
+        if (hit->hit) blend(d, scratch, met.answer.s, color);
     }
     return true;
 }
@@ -153,13 +161,18 @@ static mns_status begin_effects(draw *d, mns_error *error)
 {
     size_t pixels = (size_t)d->plan->frame.width * (size_t)d->plan->frame.height;
     draw_tracer *tracer = &d->tracer;
+    bool solids = d->plan->features & FEATURE_SOLIDS;
+    mns_status status = draw_solids_begin(d, error);
+    if (status) return status;
+    if (solids) tracer->mesh = memory_array(pixels, sizeof *tracer->mesh);
     tracer->lit = memory_array(pixels, 4 * sizeof(float));
     tracer->terms = memory_array(pixels, 4 * sizeof(float));
     tracer->settled = memory_array(pixels, sizeof(float));
     tracer->effects = calloc(1, sizeof *tracer->effects);
-    if (!tracer->lit || !tracer->terms || !tracer->settled || !tracer->effects)
+    if (!tracer->lit || !tracer->terms || !tracer->settled || !tracer->effects || (solids && !tracer->mesh))
         return status_no_memory(error, "while tracing a frame");
-    return effects_begin(tracer->effects, d->plan, tracer->reference, surface_albedo, d, error);
+    return effects_begin(tracer->effects, d->plan, tracer->reference, solids ? &d->r->solids.set : NULL,
+                         surface_albedo, d, error);
 }
 
 mns_status draw_reference_begin(draw *d, mns_error *error)
@@ -193,6 +206,7 @@ void draw_reference_end(draw *d)
     free(d->tracer.lit);
     free(d->tracer.terms);
     free(d->tracer.settled);
+    free(d->tracer.mesh);
     if (d->tracer.effects) effects_end(d->tracer.effects);
     free(d->tracer.effects);
     d->tracer = (draw_tracer){0};
@@ -208,6 +222,7 @@ static void upload(draw *d)
     frame_send(d->frame, d->frame->lit, GL_RGBA, tracer->lit);
     frame_send(d->frame, d->frame->terms, GL_RGBA, tracer->terms);
     frame_send(d->frame, d->frame->settled, GL_RED, tracer->settled);
+    if (tracer->mesh) frame_send_whole(d->frame, d->frame->mesh, tracer->mesh);
 }
 
 mns_status draw_reference_sample(draw *d, const double jitter[2], mns_error *error)

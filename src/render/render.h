@@ -4,6 +4,7 @@
 
 #include "list/passes.h"
 #include "shade/effects.h"
+#include "solid/solid_files.h"
 #include "tile/tile.h"
 #include "trace/passes.h"
 
@@ -46,6 +47,7 @@ struct mns_renderer {
     render_tree tree; /* zeroed: none is uploaded */
     gl_buffer shade;
     shade_effects effects;
+    solid_files solids;
     render_last last;
     bool disordered; /* lists have come out of order on this driver: sort them before they are cast */
 };
@@ -58,11 +60,12 @@ struct mns_frame {
     GLuint work;                     /* counts of each ray's work, with COUNTERS */
     GLuint lit;                      /* with LIT: colours before the shade pass, linear, premultiplied */
     GLuint terms;   /* and the effects' terms at the first hit: shadow, occlusion, mirror.t, refract.t */
+    GLuint mesh;    /* with SOLIDS: 1 + the index of the mesh that is seen, else 0 */
     GLuint settled; /* and 1, or 0 where some ray beyond it was undecided */
     GLuint planes_target, shaded_target, lit_target;
     int width, height;
     int summed; /* samples that its colours hold; 0 where they are nobody's */
-    bool has_color, has_work, has_lit;
+    bool has_color, has_work, has_lit, has_mesh;
     float *t_error; /* bound on the error of each distance, row 0 at the top; NULL where the method gives none
                      */
 };
@@ -72,6 +75,7 @@ mns_status frame_prepare(mns_frame *frame, const mns_plan *plan, mns_error *erro
 /* Floats into a texture of the frame's size, rows from the bottom, whatever rows the host's
  * own textures come in. */
 void frame_send(mns_frame *frame, GLuint texture, GLenum format, const float *data);
+void frame_send_whole(mns_frame *frame, GLuint texture, const uint32_t *data);
 /* Takes the noise of the terms that were read into the frame's figures. */
 void frame_measure_noise(mns_frame *frame, const mns_image *image);
 /* The planes' distances from the field's unit to the one in which they are told. Errors: MEMORY. */

@@ -46,6 +46,7 @@ void mns_renderer_destroy(mns_renderer *r)
     tile_bins_free(&r->bins);
     gl_buffer_free(&r->device, &r->shade);
     shade_effects_free(&r->effects, &r->device);
+    solid_files_free(&r->solids);
     gl_programs_free(&r->device, &r->programs);
     gl_device_close(&r->device);
     free(r);

@@ -20,6 +20,9 @@ static void free_file(scene_file *file)
     free(file->color_by);
     free(file->environment);
     free(file->lights);
+    for (size_t i = 0; i < file->scene.look.mesh_count; i++) free(file->mesh_files[i]);
+    free(file->mesh_files);
+    free(file->meshes);
     free(file);
 }
 
@@ -56,6 +59,10 @@ static mns_status resolve_files(scene_file *file, const char *path, mns_error *e
     mns_status status = MNS_OK;
     for (size_t i = 0; i < file->input_count && !status; i++)
         if (!is_generator(file->inputs[i])) status = resolve(&file->inputs[i], path, error);
+    for (size_t i = 0; i < file->scene.look.mesh_count && !status; i++) {
+        status = resolve(&file->mesh_files[i], path, error);
+        file->meshes[i].file = file->mesh_files[i];
+    }
     if (!status && file->environment && strcmp(file->environment, "sky") != 0)
         status = resolve(&file->environment, path, error);
     return status;
@@ -83,6 +90,7 @@ mns_status scene_parse(const char *text, size_t size, const char *path, mns_scen
     file->scene.look.color_by = file->color_by;
     file->scene.look.effects.environment = file->environment;
     file->scene.look.lights = file->lights;
+    file->scene.look.meshes = file->meshes;
     *scene = &file->scene;
     return MNS_OK;
 

@@ -13,6 +13,8 @@ typedef struct scene_file {
     size_t input_count;
     char *color_by, *environment;
     mns_light *lights; /* scene.look.light_count of them */
+    mns_mesh *meshes;  /* scene.look.mesh_count of them, */
+    char **mesh_files; /* and their names */
 } scene_file;
 
 /* Parses `size` bytes of JSON. `path` names the file in errors, and relative inputs are resolved beside it.

@@ -138,6 +138,7 @@ static const scene_key SCENE_KEYS[] = {
     {PART("camera", read_camera)},
     {PART("light", read_light)},
     {KEY_SET("lights", scene_read_lights, look, look.set, MNS_LOOK_LIGHT)},
+    {PART("meshes", scene_read_meshes)},
     {PART("look", read_look)},
     {PART("effects", scene_read_effects)},
     {PART("material", read_material)},

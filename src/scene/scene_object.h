@@ -21,5 +21,7 @@ mns_status scene_read_object(scene_reader *r, const char *key, const json_t *val
 
 /* scene_effects.c: "lights", "effects". */
 scene_read scene_read_lights, scene_read_effects;
+/* scene_meshes.c: "meshes". */
+scene_read scene_read_meshes;
 
 #endif

@@ -38,6 +38,7 @@ typedef struct effects_block {
     int32_t counts[4];
     uint32_t levels[4];
     int32_t size[4];
+    uint32_t solids[4];
 } effects_block;
 
 /* ---- What is sent ---- */
@@ -77,7 +78,14 @@ static void put_camera(effects_block *block, const mns_plan *plan, const double 
     block->size[0] = f->width, block->size[1] = f->height;
 }
 
-static void fill(effects_block *block, const mns_plan *plan, const double jitter[2], int sample)
+/* Which side of the surface the eye is on, where solids are seen that cannot tell. */
+static int side_of_eye(const mns_plan *plan)
+{
+    return plan->features & FEATURE_EYE_INSIDE ? 1 : plan->features & FEATURE_EYE_ON ? 2 : 0;
+}
+
+static void fill(effects_block *block, const shade_effects *effects, const mns_plan *plan,
+                 const double jitter[2], int sample)
 {
     const mns_effects *e = &plan->look.effects;
     memset(block, 0, sizeof *block);
@@ -93,6 +101,8 @@ static void fill(effects_block *block, const mns_plan *plan, const double jitter
     block->counts[0] = (int32_t)plan->look.light_count;
     block->counts[2] = e->shadow_samples, block->counts[3] = e->occlusion_rays;
     block->levels[0] = (uint32_t)e->reflections, block->levels[1] = (uint32_t)e->refractions;
+    block->size[2] = side_of_eye(plan), block->size[3] = 2;
+    if (plan->features & FEATURE_SOLIDS) memcpy(block->solids, effects->solids.place, sizeof block->solids);
     block->levels[2] = e->seed, block->levels[3] = (uint32_t)sample;
 }
 
@@ -107,6 +117,7 @@ static void keep_loose(shade_loose *loose, const effects_block *block)
     memcpy(loose->counts, block->counts, sizeof block->counts);
     memcpy(loose->levels, block->levels, sizeof block->levels);
     memcpy(loose->size, block->size, sizeof block->size);
+    memcpy(loose->solids, block->solids, sizeof block->solids);
 }
 
 mns_status shade_effects_send(shade_effects *e, gl_device *device, const mns_plan *plan,
@@ -114,7 +125,7 @@ mns_status shade_effects_send(shade_effects *e, gl_device *device, const mns_pla
 {
     const GladGLContext *gl = &device->gl;
     effects_block block;
-    fill(&block, plan, jitter, sample);
+    fill(&block, e, plan, jitter, sample);
     mns_status status = gl_buffer_reserve(device, &e->block, "lights", sizeof block, 0, error);
     if (status) return status;
     gl->BindBuffer(GL_UNIFORM_BUFFER, e->block.id);
@@ -134,6 +145,7 @@ static void send_loose(const gl_device *device, const shade_loose *loose)
     gl->Uniform4iv(at++, 1, loose->counts);
     gl->Uniform4uiv(at++, 1, loose->levels);
     gl->Uniform4iv(at++, 1, loose->size);
+    if (loose->solids[3]) gl->Uniform4uiv(at, 1, loose->solids);
 }
 
 /* ---- The environment's map ---- */
@@ -254,6 +266,7 @@ void shade_effects_bind(shade_effects *e, trace_passes *t, list_passes *p, gl_de
         gl->ActiveTexture(GL_TEXTURE6 + i);
         gl->BindTexture(GL_TEXTURE_2D, read[i]);
     }
+    if (plan->features & FEATURE_SOLIDS) shade_solids_bind(&e->solids, device, planes->mesh);
     for (GLuint i = 0; i < sizeof written / sizeof *written; i++)
         gl->BindImageTexture(1 + i, written[i].texture, 0, GL_FALSE, 0, GL_WRITE_ONLY, written[i].format);
     gl->MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
@@ -355,5 +368,6 @@ void shade_effects_free(shade_effects *e, gl_device *device)
     gl_buffer_free(device, &e->block);
     gl_buffer_free(device, &e->store);
     drop_map(e, device);
+    shade_solids_free(&e->solids, device);
     *e = (shade_effects){0};
 }

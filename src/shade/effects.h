@@ -2,6 +2,7 @@
 #ifndef MNS_SHADE_EFFECTS_H
 #define MNS_SHADE_EFFECTS_H
 
+#include "shade/solids.h"
 #include "trace/passes.h"
 
 #include <sys/stat.h>
@@ -15,12 +16,14 @@ typedef struct shade_loose {
     int32_t counts[4];
     uint32_t levels[4];
     int32_t size[4];
+    uint32_t solids[4]; /* of nodes 0: there are none */
 } shade_loose;
 
 /* Its GL objects. Zeroed is empty. */
 typedef struct shade_effects {
     gl_buffer block, store; /* lights and numbers; walks that wait */
     shade_loose loose;
+    shade_solids solids;
     size_t room;    /* walks that can wait */
     GLuint map;     /* the environment's */
     char *map_name; /* of its file, as that was when it was read: */
@@ -38,7 +41,7 @@ typedef struct shade_walks {
 
 /* What one sample is lit from, and to. */
 typedef struct shade_planes {
-    GLuint t, normal, color, lit, terms, settled;
+    GLuint t, normal, color, mesh, lit, terms, settled;
 } shade_planes;
 
 /* Reads the environment's map, unless it is there as it is. Errors: as image_picture_read, UNSUPPORTED (too

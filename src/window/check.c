@@ -2,6 +2,7 @@
 
 #include "base/clock.h"
 #include "base/status.h"
+#include "image/image.h"
 
 #include <omp.h>
 #include <stdio.h>
@@ -13,6 +14,19 @@ static void tell_rows(void *context, int done, int rows)
     check *c = context;
     /* Seldom: each redraws the window. */
     if (atomic_exchange(&c->rows, done) / 64 != done / 64) c->wake();
+}
+
+/* What the truth of the field does not know: where a mesh is seen there is nothing to tell. */
+static void leave_out_meshes(truth_planes *truth, const mns_image *image)
+{
+    size_t pixels = (size_t)truth->width * (size_t)truth->height;
+    for (size_t i = 0; image->mesh && i < pixels; i++) {
+        if (image->mesh[i] == 0) continue;
+        truth->t[i] = image_distance(image, i);
+        truth->t_error[i] = truth->radius[i] = 0;
+        truth->certain[i] = 0;
+        for (size_t c = 3 * i; c < 3 * i + 3; c++) truth->normal[c] = (double)image->normal[c];
+    }
 }
 
 static void *work(void *context)
@@ -29,6 +43,8 @@ static void *work(void *context)
     double start = clock_ms();
     mns_status status = truth_create(&desc, &truth, &c->error);
     c->ms = clock_ms() - start;
+    for (int i = 0; i < 2 && !status; i++)
+        if (c->image[i]) leave_out_meshes(truth, c->image[i]);
     for (int i = 0; i < 2 && !status; i++)
         if (c->image[i]) status = metrics_measure(truth, c->image[i], NULL, 0, &c->result[i], &c->error);
     truth_destroy(truth);

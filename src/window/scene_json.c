@@ -172,6 +172,22 @@ static json_t *effects_of(const mns_look *look)
     return to;
 }
 
+static void put_meshes(json_t *to, const mns_look *look)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < look->mesh_count; i++) {
+        const mns_mesh *mesh = &look->meshes[i];
+        json_t *one = json_object();
+        put(one, "file", file_name(mesh->file));
+        if (mesh->has_color) put(one, "color", numbers(mesh->color, 3));
+        json_array_append_new(list, one);
+    }
+    if (look->mesh_count)
+        put(to, "meshes", list);
+    else
+        json_decref(list);
+}
+
 /* ---- The file ---- */
 
 static json_t *scene_of(const window_settings *s, const mns_look *look, const mns_view *view, long frame)
@@ -184,6 +200,7 @@ static json_t *scene_of(const window_settings *s, const mns_look *look, const mn
     put(to, "camera", camera_json(view));
     if (look->preset && *look->preset) put(to, "look", json_string(look->preset));
     put_lights(to, look);
+    put_meshes(to, look);
     put_object(to, "material", material_of(look));
     put_object(to, "effects", effects_of(look));
     if (look->set & MNS_LOOK_BACKGROUND) put(to, "background", numbers(look->background, 4));

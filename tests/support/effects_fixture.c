@@ -27,7 +27,7 @@ void effects_fixture_open(effects_fixture *f, const mns_field *field, vec3 eye, 
     if (fabs(ahead.y) > 0.9) view.up[0] = 1;
     if (mns_plan_create(field, &view, look, &options, NULL, &f->plan, &error)) fail_msg("%s", error.text);
     if (mns_reference_create(field, &f->reference, &error)) fail_msg("%s", error.text);
-    if (effects_begin(&f->scene, f->plan, f->reference, give_albedo, f, &error)) fail_msg("%s", error.text);
+    if (effects_begin(&f->scene, f->plan, f->reference, NULL, give_albedo, f, &error)) fail_msg("%s", error.text);
 }
 
 void effects_fixture_close(effects_fixture *f)
@@ -40,14 +40,11 @@ void effects_fixture_close(effects_fixture *f)
 
 effects_pixel effects_fixture_shade(effects_fixture *f, vec3 way, reference_answer *first)
 {
-    reference_query query = {.reach = INFINITY};
-    reference_answer answer;
+    effects_met met;
     effects_pixel pixel = {.x = 3, .y = 5};
     way = vec3_unit(way);
-    vec3_store(query.origin, f->plan->frame.eye);
-    vec3_store(query.direction, way);
-    assert_true(reference_ask(f->reference, &f->scratch, &query, &answer));
-    assert_true(effects_shade(&f->scene, &f->scratch, way, &answer, &pixel));
-    if (first) *first = answer;
+    assert_true(effects_first(&f->scene, &f->scratch, way, &met));
+    assert_true(effects_shade(&f->scene, &f->scratch, way, &met, &pixel));
+    if (first) *first = met.answer;
     return pixel;
 }

@@ -15,7 +15,7 @@
 /* What makes a frame LIT; and what only goes with some of it. */
 #define LIGHT_WAYS                                                                                           \
     (FEATURE_LIGHTS | FEATURE_POINT_LIGHTS | FEATURE_SHADOWS | FEATURE_MIRROR | FEATURE_REFRACTION |         \
-     FEATURE_OCCLUSION | FEATURE_ENVIRONMENT | FEATURE_SKY)
+     FEATURE_OCCLUSION | FEATURE_ENVIRONMENT | FEATURE_SKY | FEATURE_SOLIDS)
 #define EFFECTS (LIGHT_WAYS | FEATURE_LIT | FEATURE_SOFT_SHADOWS | FEATURE_FRESNEL | FEATURE_ABSORPTION)
 
 /* `a` only with all of `b`. */

@@ -1,0 +1,214 @@
+// The meshes beside the surface: a ray's first hit among their triangles, by a tree of boxes. Of what rounding could decide otherwise the
+// caller is told. The same in doubles on the CPU: src/solid/solid_trace.c.
+#include "triangle.glsl"
+
+// Texels of four words: of each node its box, rounded outwards, with its first child or triangle (lo.w) and its count of triangles (hi.w,
+// 0: inner); of each triangle its corners and its mesh, and the corners beyond its edges; of each corner its place as two floats an axis;
+// of each mesh its colour. path_solids tells where the last three begin, and how many nodes there are.
+layout(binding = 10) uniform usamplerBuffer solid_texels;
+
+const uint SOLID_ALONE = 0xffffffffu;
+
+struct Solid {
+    bool hit;
+    bool open;      // it may be otherwise
+    REAL t;         // FAR_AWAY where nothing is hit
+    REAL off;       // what t may be off
+    REAL3 normal;   // turned against the ray
+    uint mesh;
+};
+
+REAL3 solid_start = REAL3(0.0);
+REAL3 solid_way = REAL3(0.0);
+REAL3 solid_leaves = REAL3(0.0); // normal of the triangle that the ray leaves, or 0: what lies in one plane with it is not met
+REAL solid_reach = NUM(0.0);     // of the start
+REAL solid_limit = NUM(0.0);
+REAL solid_begin = NUM(0.0);     // what the start may be off, of the lengths around
+bool solid_fine = false;         // which of two triangles is met matters
+REAL solid_doubt = NUM(0.0);     // before this nothing is in doubt
+Solid solid_best = Solid(false, false, NUM(0.0), NUM(0.0), REAL3(0.0), 0u);
+vec3 solid_near = vec3(0.0);     // the start, its slabs' scale and slack, in floats
+vec3 solid_inverse = vec3(0.0);
+vec3 solid_slack = vec3(0.0);
+
+REAL3 solid_corner(uint corner)
+{
+    int at = int(path_solids.y + 2u * corner);
+    uvec4 high = texelFetch(solid_texels, at);
+#ifdef MNS_DOUBLE
+    uvec4 low = texelFetch(solid_texels, at + 1);
+    return REAL3(uintBitsToFloat(high.xyz)) + REAL3(uintBitsToFloat(uvec3(high.w, low.xy))) - solid_start;
+#else
+    return uintBitsToFloat(high.xyz) - solid_start;
+#endif
+}
+
+// Linear light.
+vec3 solid_color(uint mesh)
+{
+    return uintBitsToFloat(texelFetch(solid_texels, int(path_solids.z + mesh)).rgb);
+}
+
+REAL solid_edge(REAL3 a, REAL3 b)
+{
+    return triangle_edge(a.x, a.y, a.z, b.x, b.y, b.z, solid_way.x, solid_way.y, solid_way.z);
+}
+
+REAL solid_room(REAL3 a, REAL3 b)
+{
+    return triangle_edge_margin(a.x, a.y, a.z, b.x, b.y, b.z, solid_reach, TAU);
+}
+
+// As long as twice the area.
+REAL3 solid_normal(REAL3 a, REAL3 b, REAL3 c)
+{
+    REAL3 u = b - a;
+    REAL3 v = c - a;
+    return REAL3(triangle_normal(0, u.x, u.y, u.z, v.x, v.y, v.z), triangle_normal(1, u.x, u.y, u.z, v.x, v.y, v.z),
+                 triangle_normal(2, u.x, u.y, u.z, v.x, v.y, v.z));
+}
+
+// Whether a triangle with that normal lies in one plane with the one that the ray leaves, if they touch.
+bool solid_left(REAL3 normal)
+{
+    REAL3 aside = cross(normal / sqrt(dot(normal, normal)), solid_leaves);
+    return dot(solid_leaves, solid_leaves) > NUM(0.0) && dot(aside, aside) <= NUM(1.0e-10);
+}
+
+// Whether beyond the edge from a to b no neighbour lies on its other side, as the ray sees them, or none that it may meet.
+bool solid_outline(REAL3 a, REAL3 b, uint beside, REAL side)
+{
+    if (solid_fine || beside == SOLID_ALONE) return true;
+    REAL3 c = solid_corner(beside);
+    REAL turned = solid_edge(b, a) + solid_edge(a, c) + solid_edge(c, b);
+    return !(side * turned > solid_room(a, b) + solid_room(a, c) + solid_room(c, b)) || solid_left(solid_normal(a, b, c));
+}
+
+// Takes a triangle that the ray meets (`within`), or may meet (`open`).
+void solid_take(REAL3 a, REAL3 b, REAL3 c, bool within, bool open, uint mesh)
+{
+    REAL3 normal = solid_normal(a, b, c);
+    REAL size = sqrt(dot(normal, normal));
+    REAL facing = dot(normal, solid_way);
+    REAL slant = abs(facing) / size;
+    REAL lengths = abs(a.x) + abs(a.y) + abs(a.z) + sqrt(dot(b - a, b - a)) + sqrt(dot(c - a, c - a)) + solid_reach;
+    bool flat_on = slant > TAU; // else it is seen from its edge
+    REAL t = flat_on ? dot(a, normal) / facing : NUM(0.0);
+    REAL off = flat_on ? TAU * lengths / slant : FAR_AWAY;
+    REAL begin = flat_on ? max(off, solid_begin * lengths / slant) : FAR_AWAY;
+    if (t < -off) return;
+    bool leaves = dot(solid_leaves, solid_leaves) > NUM(0.0);
+    if (t <= (leaves ? begin : off)) { // where the ray starts
+        if (solid_left(normal)) return;
+        if (t <= off) {
+            solid_doubt = NUM(0.0);
+            return;
+        }
+    }
+    if (t - off > solid_limit) return;
+    if (open || t + off >= solid_limit) solid_doubt = min(solid_doubt, t - off);
+    if (!within || t > solid_limit || !(t < solid_best.t)) return;
+    solid_best = Solid(true, false, t, off, normal * ((facing < NUM(0.0) ? NUM(1.0) : NUM(-1.0)) / size), mesh);
+}
+
+void solid_test(uint triangle)
+{
+    int at = int(path_solids.x + 2u * triangle);
+    uvec4 one = texelFetch(solid_texels, at);
+    REAL3 a = solid_corner(one.x);
+    REAL3 b = solid_corner(one.y);
+    REAL3 c = solid_corner(one.z);
+    REAL3 edges = REAL3(solid_edge(a, b), solid_edge(b, c), solid_edge(c, a));
+    REAL3 room = REAL3(solid_room(a, b), solid_room(b, c), solid_room(c, a));
+    REAL sum = edges.x + edges.y + edges.z;
+    bool flat_on = abs(sum) > room.x + room.y + room.z;
+    REAL side = sum < NUM(0.0) ? NUM(-1.0) : NUM(1.0);
+    edges *= side;
+    if (flat_on && (edges.x < -room.x || edges.y < -room.y || edges.z < -room.z)) return;
+    bool open = !flat_on;
+    bool near_edge = edges.x <= room.x || edges.y <= room.y || edges.z <= room.z;
+    if (flat_on && near_edge) {
+        uvec4 two = texelFetch(solid_texels, at + 1);
+        open = (edges.x <= room.x && solid_outline(a, b, two.x, side)) || (edges.y <= room.y && solid_outline(b, c, two.y, side)) ||
+               (edges.z <= room.z && solid_outline(c, a, two.z, side));
+    }
+    // Within rounding of an edge that goes on beyond it the triangle is met, or its neighbour: so nothing slips between.
+    solid_take(a, b, c, flat_on && (!open || min(edges.x, min(edges.y, edges.z)) >= NUM(0.0)), open, one.w);
+}
+
+// Where the ray enters a node's box, FAR_AWAY where it does not before `limit`.
+float solid_enters(uvec4 low, uvec4 high, float limit)
+{
+    vec3 x = (uintBitsToFloat(low.xyz) - solid_near) * solid_inverse;
+    vec3 y = (uintBitsToFloat(high.xyz) - solid_near) * solid_inverse;
+    vec3 enter = min(x, y) - solid_slack;
+    vec3 leave = max(x, y) + solid_slack;
+    float from = max(max(enter.x, enter.y), max(enter.z, 0.0));
+    float to = min(min(leave.x, leave.y), min(leave.z, limit));
+    return from <= to ? from : float(FAR_AWAY);
+}
+
+void solid_aim()
+{
+    uvec4 low = texelFetch(solid_texels, 0);
+    uvec4 high = texelFetch(solid_texels, 1);
+    vec3 way = vec3(solid_way);
+    vec3 safe = max(abs(way), vec3(1.0e-9));
+    solid_near = vec3(solid_start);
+    vec3 size = abs(solid_near) + abs(uintBitsToFloat(low.xyz)) + abs(uintBitsToFloat(high.xyz));
+    solid_inverse = mix(vec3(1.0), vec3(-1.0), lessThan(way, vec3(0.0))) / safe;
+    solid_slack = 1.0e-6 * (size.x + size.y + size.z) * abs(solid_inverse);
+}
+
+uint solid_stack[SOLID_DEPTH];
+
+void solid_walk()
+{
+    uint node = 0u;
+    int top = 0;
+    bool goes_on = path_solids.w > 0u;
+    while (goes_on) {
+        uvec4 low = texelFetch(solid_texels, int(2u * node));
+        uint count = texelFetch(solid_texels, int(2u * node + 1u)).w;
+        float enter_first = float(FAR_AWAY);
+        float enter_second = float(FAR_AWAY);
+        if (count == 0u) {
+            int at = int(2u * low.w);
+            float limit = 1.000001 * float(min(solid_limit, solid_best.t + solid_best.off));
+            enter_first = solid_enters(texelFetch(solid_texels, at), texelFetch(solid_texels, at + 1), limit);
+            enter_second = solid_enters(texelFetch(solid_texels, at + 2), texelFetch(solid_texels, at + 3), limit);
+        }
+        for (uint i = 0u; i < count; i++) solid_test(low.w + i);
+        bool first = enter_first <= enter_second;
+        bool any = min(enter_first, enter_second) < float(FAR_AWAY);
+        if (max(enter_first, enter_second) < float(FAR_AWAY)) {
+            solid_stack[top] = low.w + (first ? 1u : 0u);
+            top++;
+        }
+        if (any) {
+            node = low.w + (first ? 0u : 1u);
+        } else {
+            top--;
+            goes_on = top >= 0;
+            node = solid_stack[max(top, 0)];
+        }
+    }
+}
+
+// The first triangle on the ray within `limit`. `leaves`: see solid_leaves; `begin`: what the start may be off, of the lengths around.
+Solid solid_cast(REAL3 start, REAL3 way, REAL limit, REAL3 leaves, REAL begin, bool fine)
+{
+    solid_start = start;
+    solid_way = way;
+    solid_leaves = leaves;
+    solid_reach = abs(start.x) + abs(start.y) + abs(start.z);
+    solid_limit = limit;
+    solid_begin = begin;
+    solid_fine = fine;
+    solid_doubt = FAR_AWAY;
+    solid_best = Solid(false, false, FAR_AWAY, NUM(0.0), REAL3(0.0), 0u);
+    solid_aim();
+    solid_walk();
+    solid_best.open = solid_doubt < FAR_AWAY && solid_doubt <= solid_best.t + solid_best.off;
+    return solid_best;
+}

@@ -1,0 +1,272 @@
+/* Solid meshes drawn on the GPU, against the truth's: which mesh is seen where, distances, terms and colours,
+ * at every scale, inside the medium too; and nothing of them where there are none. */
+#include "render/render.h"
+#include "support/draw_fixture.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT };
+
+static const mns_options truth = {.method = MNS_METHOD_REFERENCE};
+static const mns_light sun = {.kind = MNS_LIGHT_DIRECTIONAL, .direction = {1, 2, 1.5}};
+
+typedef struct files {
+    char floor[40], box[40];
+    mns_mesh mesh[2];
+} files;
+
+static void write_mesh(const char *text, char path[40])
+{
+    snprintf(path, 40, "/tmp/solids-XXXXXX.obj");
+    int file = mkstemps(path, 4);
+    assert_true(file >= 0);
+    assert_int_equal(write(file, text, strlen(text)), strlen(text));
+    close(file);
+}
+
+/* A floor under the field, and a tetrahedron at `at`, all times `size`. */
+static void write_files(files *f, double size, const double at[3])
+{
+    char text[600];
+    double x = at[0] * size, y = at[1] * size, z = at[2] * size, s = 0.25 * size;
+    snprintf(text, sizeof text,
+             "v %.9g %.9g %.9g\nv %.9g %.9g %.9g\nv %.9g %.9g %.9g\nv %.9g %.9g %.9g\nf 1 2 3 4\n", -2 * size,
+             -0.3 * size, -2 * size, -2 * size, -0.3 * size, 2 * size, 2 * size, -0.3 * size, 2 * size,
+             2 * size, -0.3 * size, -2 * size);
+    write_mesh(text, f->floor);
+    snprintf(text, sizeof text,
+             "v %.9g %.9g %.9g\nv %.9g %.9g %.9g\nv %.9g %.9g %.9g\nv %.9g %.9g %.9g\nf 1 2 3\nf 2 4 3\nf 4 "
+             "1 3\nf 1 4 "
+             "2\n",
+             x - s, y - s, z - s, x + s, y - s, z - s, x, y + s, z, x, y - s, z + s);
+    write_mesh(text, f->box);
+    f->mesh[0] = (mns_mesh){.file = f->floor};
+    f->mesh[1] = (mns_mesh){.file = f->box, .has_color = true, .color = {0.9, 0.3, 0.2}};
+}
+
+static void drop_files(const files *f)
+{
+    unlink(f->floor);
+    unlink(f->box);
+}
+
+static bool reads_meshes(void)
+{
+    return strstr(mns_version(), "no assimp") == NULL;
+}
+
+static bool is_second(const draw_fixture *d)
+{
+    return d->gl.backend == MNS_BACKEND_OSMESA;
+}
+
+/* ---- Against the truth ---- */
+
+static bool is_off(const float *got, const float *want, int i, double allowed)
+{
+    if (!want) return got != NULL;
+    return !(got[i] == want[i] || fabs((double)got[i] - (double)want[i]) <= allowed);
+}
+
+/* Pixels that are open, wrong, and of another colour. */
+typedef struct tally {
+    int seen[3], open, wrong, off; /* seen: nothing or the surface, the floor, the other mesh */
+} tally;
+
+static tally compare(const mns_image *got, const mns_image *want, double length)
+{
+    tally sum = {.open = 0};
+    for (int i = 0; i < PIXELS; i++) {
+        sum.seen[(int)want->mesh[i]]++;
+        if (got->certain[i] * got->effects_certain[i] * want->certain[i] * want->effects_certain[i] != 1) {
+            sum.open++;
+            continue;
+        }
+        bool wrong = got->mesh[i] != want->mesh[i] || is_off(got->t, want->t, i, length), off = false;
+        for (int c = 0; c < 3; c++) wrong = wrong || is_off(got->normal, want->normal, 3 * i + c, 1e-4);
+        wrong = wrong || is_off(got->shadow, want->shadow, i, 1e-5) ||
+                is_off(got->occlusion, want->occlusion, i, 1e-5) ||
+                is_off(got->mirror_t, want->mirror_t, i, length) ||
+                is_off(got->refract_t, want->refract_t, i, length);
+        for (int c = 0; c < 4; c++) off = off || is_off(got->rgba, want->rgba, 4 * i + c, 3e-3);
+        sum.wrong += wrong;
+        sum.off += off;
+    }
+    return sum;
+}
+
+static void expect_truth(draw_fixture *d, const mns_field *field, const mns_view *view, const mns_look *look,
+                         const mns_options *options, double length, int off, const char *what)
+{
+    mns_image *want = draw_image(d, field, view, look, &truth);
+    mns_image *got = draw_image(d, field, view, look, options);
+    tally sum = compare(got, want, length);
+    if (sum.wrong || sum.off > off || sum.open > 4)
+        fail_msg("%s: %d open, %d wrong, %d of another colour", what, sum.open, sum.wrong, sum.off);
+    if (sum.seen[0] < 100 || sum.seen[1] < 100 || sum.seen[2] < 20)
+        fail_msg("%s: %d pixels of surface or nothing, %d of the floor, %d of the mesh", what, sum.seen[0],
+                 sum.seen[1], sum.seen[2]);
+    mns_image_destroy(want);
+    mns_image_destroy(got);
+}
+
+static mns_field *three_balls(double size)
+{
+    const double at[9] = {0, 0, 0, 0.4 * size, 0.1 * size, 0, -0.3 * size, 0, 0.2 * size};
+    return draw_field(3, at, NULL, 0.6 * size, NULL, MNS_KERNEL_POLY3);
+}
+
+static mns_view view_of(double size)
+{
+    const double eye[3] = {0.5 * size, 0.8 * size, 2.2 * size}, at[3] = {0.1 * size, 0, 0};
+    return draw_view(eye, at, 45, WIDTH, HEIGHT);
+}
+
+static void meshes_are_lit_and_mirrored_at_every_scale(void **state)
+{
+    draw_fixture *d = *state;
+    static const double beside[3] = {0.7, 0, 0.1};
+    if (!reads_meshes()) skip();
+    for (double size = 1e-6; size < 1e7; size *= 1e6) {
+        files f;
+        char what[32];
+        write_files(&f, size, beside);
+        mns_field *field = three_balls(size);
+        const mns_view view = view_of(size);
+        const mns_look look = {
+            .lights = &sun,
+            .light_count = 1,
+            .meshes = f.mesh,
+            .mesh_count = 2,
+            .effects = {.shadows = true, .reflections = 2, .mirror = 0.5, .occlusion_rays = 4}};
+        for (int method = 0; method < 2; method++) {
+            const mns_options options = {.method = method ? MNS_METHOD_TILE : MNS_METHOD_FBVH};
+            snprintf(what, sizeof what, "size %g, method %d", size, method);
+            expect_truth(d, field, &view, &look, &options, 1e-5 * size, 2, what);
+            if (is_second(d)) break;
+        }
+        mns_field_destroy(field);
+        drop_files(&f);
+        if (is_second(d)) break;
+    }
+}
+
+/* The mesh is in the medium, which bends what is seen of it and absorbs. */
+static void a_mesh_in_glass_is_seen_through_it(void **state)
+{
+    draw_fixture *d = *state;
+    static const double within[3] = {0.05, 0, 0};
+    files f;
+    if (!reads_meshes() || is_second(d)) skip();
+    write_files(&f, 1, within);
+    mns_field *field = three_balls(1);
+    const mns_options options = {.method = MNS_METHOD_FBVH};
+    const mns_look look = {
+        .lights = &sun,
+        .light_count = 1,
+        .meshes = f.mesh,
+        .mesh_count = 2,
+        .effects = {
+            .reflections = 1, .refractions = 4, .index = 1.4, .absorption = {1, 2, 3}, .occlusion_rays = 2}};
+    mns_view view = view_of(1);
+    mns_image *want = draw_image(d, field, &view, &look, &truth);
+    mns_image *got = draw_image(d, field, &view, &look, &options);
+    tally sum = compare(got, want, 1e-4);
+    if (sum.wrong || sum.off > 6 || sum.open > 4)
+        fail_msg("%d open, %d wrong, %d off", sum.open, sum.wrong, sum.off);
+    mns_image_destroy(want);
+    mns_image_destroy(got);
+    /* And from within: the eye beside the mesh. */
+    const double eye[3] = {0.35, 0.1, 0.12}, at[3] = {0, 0, 0};
+    view = draw_view(eye, at, 60, WIDTH, HEIGHT);
+    want = draw_image(d, field, &view, &look, &truth);
+    got = draw_image(d, field, &view, &look, &options);
+    sum = compare(got, want, 1e-4);
+    if (sum.wrong || sum.off > 8 || sum.open > 8)
+        fail_msg("inside: %d open, %d wrong, %d off", sum.open, sum.wrong, sum.off);
+    assert_true(sum.seen[2] > 100);
+    mns_image_destroy(want);
+    mns_image_destroy(got);
+    mns_field_destroy(field);
+    drop_files(&f);
+}
+
+/* ---- What is there and what is not ---- */
+
+/* A plain picture beside a mesh: of the surface every pixel that no mesh hides is as it is without, and no
+ * ray is traced; without a mesh nothing of it is made. */
+static void what_no_mesh_hides_stays_as_it_is(void **state)
+{
+    draw_fixture *d = *state;
+    static const double beside[3] = {0.7, 0, 0.1};
+    files f;
+    if (!reads_meshes()) skip();
+    write_files(&f, 1, beside);
+    mns_field *field = three_balls(1);
+    const mns_view view = view_of(1);
+    const mns_options options = {.method = MNS_METHOD_TILE, .samples = 2};
+    mns_look look = {.lights = &sun, .light_count = 1};
+    mns_image *bare = draw_image(d, field, &view, &look, &options);
+    assert_null(bare->mesh);
+    assert_true(d->frame->mesh == 0 && d->renderer->effects.solids.buffer.id == 0 &&
+                d->renderer->effects.solids.texture == 0 && d->renderer->solids.count == 0);
+    look.meshes = f.mesh, look.mesh_count = 2;
+    mns_image *image = draw_image(d, field, &view, &look, &options);
+    assert_true(d->renderer->effects.solids.buffer.id != 0 && d->stats.effects_rays == 0);
+    int surface = 0, meshes = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        meshes += image->mesh[i] > 0;
+        if (image->mesh[i] > 0) {
+            assert_true(image->t[i] < bare->t[i]);
+            continue;
+        }
+        assert_true(image->t[i] == bare->t[i] && image->certain[i] == bare->certain[i]);
+        surface += !isinf(image->t[i]);
+    }
+    assert_true(surface > 100 && meshes > 300);
+    /* Through a file and back. */
+    char path[] = "/tmp/solids-XXXXXX.exr";
+    mns_error error;
+    mns_image *read;
+    int file = mkstemps(path, 4);
+    assert_true(file >= 0);
+    close(file);
+    if (mns_image_write(image, path, &error) || mns_image_read(path, &read, &error))
+        fail_msg("%s", error.text);
+    assert_memory_equal(read->mesh, image->mesh, PIXELS * sizeof(float));
+    unlink(path);
+    mns_image_destroy(read);
+    /* The same again has the same bits; a file that went is told. */
+    mns_image *again = draw_image(d, field, &view, &look, &options);
+    draw_expect_same(image, again, "again");
+    drop_files(&f);
+    for (int method = 0; method < 2; method++) {
+        const mns_options *by = method ? &truth : &options;
+        assert_int_equal(mns_renderer_draw(d->renderer, field, &view, &look, by, d->frame, &error),
+                         MNS_ERROR_IO);
+        assert_non_null(strstr(error.text, f.floor));
+    }
+    mns_image_destroy(again);
+    mns_image_destroy(bare);
+    mns_image_destroy(image);
+    mns_field_destroy(field);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_no_mesh_hides_stays_as_it_is),
+        cmocka_unit_test(meshes_are_lit_and_mirrored_at_every_scale),
+        cmocka_unit_test(a_mesh_in_glass_is_seen_through_it),
+    };
+    return cmocka_run_group_tests_name("solids, drawn", tests, draw_fixture_setup, draw_fixture_teardown);
+}

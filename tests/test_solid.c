@@ -1,0 +1,405 @@
+/* Solid meshes: reading them, the first hit by the tree against every triangle in turn, edges and corners
+ * that no ray slips through, and rays that leave a triangle at any scale. */
+#include "base/memory.h"
+#include "field/field.h"
+#include "solid/solid_files.h"
+#include "support/effects_fixture.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static const char cube[] =
+    "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+    "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+/* ---- Files ---- */
+
+typedef char path_text[40];
+
+static void write_file(const char *ending, const char *text, path_text path)
+{
+    snprintf(path, sizeof(path_text), "/tmp/solid-XXXXXX%s", ending);
+    int file = mkstemps(path, (int)strlen(ending));
+    assert_true(file >= 0);
+    assert_int_equal(write(file, text, strlen(text)), strlen(text));
+    close(file);
+}
+
+static mns_status read_text(const char *ending, const char *text, mns_mesh_info *info, mns_error *error)
+{
+    path_text path;
+    write_file(ending, text, path);
+    mns_status status = mns_mesh_get_info(path, info, error);
+    unlink(path);
+    return status;
+}
+
+static bool reads_meshes(void)
+{
+    mns_mesh_info info;
+    mns_error error;
+    return read_text(".obj", cube, &info, &error) != MNS_ERROR_UNSUPPORTED;
+}
+
+static void files_are_read(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *ending, *text;
+        size_t triangles, corners, dropped;
+        double hi[3];
+    } cases[] = {
+        {".obj", cube, 12, 8, 0, {1, 1, 1}},
+        {".obj", "v 0 0 0\nv 2 0 0\nv 0 3 0\nv 1 0 0\nf 1 2 3\nf 1 4 2\nf 1 1 2\n", 1, 3, 2, {2, 3, 0}},
+        {".ply",
+         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+         "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 4\n3 0 1 2\n",
+         1,
+         3,
+         0,
+         {1, 1, 4}},
+        {".stl",
+         "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+         "endfacet\nfacet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\n"
+         "endfacet\nendsolid one\n",
+         2,
+         4,
+         0,
+         {1, 1, 0}},
+        /* A node that turns x to y, doubles it, and moves it by 10 along x. */
+        {".gltf",
+         "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],"
+         "\"nodes\":[{\"mesh\":0,\"matrix\":[0,2,0,0,-2,0,0,0,0,0,2,0,10,0,0,1]}],"
+         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":4}]}],"
+         "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+         "\"min\":[0,0,0],\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+         "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
+         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}",
+         1,
+         3,
+         0,
+         {10, 2, 0}},
+    };
+    if (!reads_meshes()) skip();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mns_mesh_info info;
+        mns_error error;
+        if (read_text(cases[i].ending, cases[i].text, &info, &error)) fail_msg("%zu: %s", i, error.text);
+        assert_int_equal(info.triangles, cases[i].triangles);
+        assert_int_equal(info.corners, cases[i].corners);
+        assert_int_equal(info.dropped, cases[i].dropped);
+        for (int a = 0; a < 3; a++) assert_float_equal(info.hi[a], cases[i].hi[a], 1e-6);
+    }
+}
+
+static void bad_files_are_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *ending, *text, *says;
+    } cases[] = {
+        {".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "expected a mesh"},
+        {".obj", "v 0 0 0\nv 1 0 0\nl 1 2\n", "no triangles"},
+        {".obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no triangles"},
+        {".obj", "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n", "not finite"},
+        {".stl", "solid\nfacet\n", "expected a mesh"},
+        {".xyzzy", "anything", "expected a mesh"},
+        {".gltf", "{\"asset\":", "expected a mesh"},
+    };
+    if (!reads_meshes()) skip();
+    mns_mesh_info info;
+    mns_error error;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        if (read_text(cases[i].ending, cases[i].text, &info, &error) != MNS_ERROR_INPUT)
+            fail_msg("case %zu was taken", i);
+        if (!strstr(error.text, cases[i].says) && !strstr(error.text, "expected a mesh"))
+            fail_msg("case %zu: %s", i, error.text);
+    }
+    assert_int_equal(mns_mesh_get_info("/nowhere/a.obj", &info, &error), MNS_ERROR_IO);
+    assert_non_null(strstr(error.text, "/nowhere/a.obj"));
+    assert_int_equal(mns_mesh_get_info(NULL, &info, &error), MNS_ERROR_USAGE);
+}
+
+static void files_are_read_again_where_they_changed(void **state)
+{
+    (void)state;
+    path_text path;
+    mns_error error;
+    solid_files files = {0};
+    if (!reads_meshes()) skip();
+    write_file(".obj", cube, path);
+    const mns_mesh mesh[2] = {{.file = path}, {.file = path}};
+    assert_int_equal(solid_files_take(&files, mesh, 2, 1, &error), MNS_OK);
+    uint64_t first = files.version;
+    assert_int_equal(files.set.triangle_count, 24);
+    assert_int_equal(solid_files_take(&files, mesh, 2, 1, &error), MNS_OK);
+    assert_int_equal(files.version, first);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("v 0 0 0\nv 2 0 0\nv 0 3 0\nf 1 2 3\n", file);
+    fclose(file);
+    assert_int_equal(solid_files_take(&files, mesh, 2, 1, &error), MNS_OK);
+    assert_true(files.version != first);
+    assert_int_equal(files.set.triangle_count, 2);
+    unlink(path);
+    assert_int_equal(solid_files_take(&files, mesh, 2, 1, &error), MNS_ERROR_IO);
+    assert_int_equal(files.set.triangle_count, 0);
+    solid_files_free(&files);
+}
+
+/* ---- Rays ---- */
+
+static double next_random(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) * 0x1p-53;
+}
+
+static vec3 random_point(uint64_t *seed, double size)
+{
+    double x = next_random(seed), y = next_random(seed), z = next_random(seed);
+    return vec3_make(size * (2 * x - 1), size * (2 * y - 1), size * (2 * z - 1));
+}
+
+static void add(solid_soup *soup, vec3 a, vec3 b, vec3 c)
+{
+    vec3 corner[3] = {a, b, c};
+    mns_error error;
+    if (solid_soup_add(soup, corner, 0, "test", &error)) fail_msg("%s", error.text);
+}
+
+static solid_set set_of(solid_soup *soup)
+{
+    solid_set set;
+    mns_error error;
+    if (solid_set_make(soup, 1, &set, &error)) fail_msg("%s", error.text);
+    solid_soup_free(soup);
+    return set;
+}
+
+/* The box from lo to hi, twelve triangles. */
+static void add_box(solid_soup *soup, vec3 lo, vec3 hi)
+{
+    static const int face[6][4] = {{0, 2, 6, 4}, {1, 5, 7, 3}, {0, 4, 5, 1},
+                                   {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 6, 7, 5}};
+    vec3 v[8];
+    for (int i = 0; i < 8; i++)
+        v[i] = vec3_make(i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z);
+    for (int f = 0; f < 6; f++) {
+        add(soup, v[face[f][0]], v[face[f][1]], v[face[f][2]]);
+        add(soup, v[face[f][0]], v[face[f][2]], v[face[f][3]]);
+    }
+}
+
+/* By barycentric coordinates, without any tree or bound. */
+static double met_by_one(const solid_set *set, const solid_triangle *t, const solid_ray *ray)
+{
+    vec3 a = vec3_load(set->corner[t->corner[0]]);
+    vec3 u = vec3_sub(vec3_load(set->corner[t->corner[1]]), a);
+    vec3 v = vec3_sub(vec3_load(set->corner[t->corner[2]]), a);
+    vec3 p = vec3_cross(ray->way, v), from = vec3_sub(ray->origin, a), q = vec3_cross(from, u);
+    double scale = vec3_dot(u, p);
+    double s = vec3_dot(from, p) / scale, w = vec3_dot(ray->way, q) / scale, far = vec3_dot(v, q) / scale;
+    return s >= 0 && w >= 0 && s + w <= 1 && far > 0 && far <= ray->reach ? far : INFINITY;
+}
+
+static void the_tree_finds_what_every_triangle_gives(void **state)
+{
+    (void)state;
+    uint64_t seed = 7;
+    solid_soup soup = {0};
+    for (int i = 0; i < 3000; i++) {
+        vec3 at = random_point(&seed, 1);
+        add(&soup, at, vec3_add(at, random_point(&seed, 0.2)), vec3_add(at, random_point(&seed, 0.2)));
+    }
+    solid_set set = set_of(&soup);
+    int hits = 0, doubts = 0;
+    for (int i = 0; i < 3000; i++) {
+        const solid_ray ray = {.origin = random_point(&seed, 2),
+                               .way = vec3_unit(random_point(&seed, 1)),
+                               .reach = i % 3 ? INFINITY : 2 * next_random(&seed)};
+        double nearest = INFINITY;
+        for (size_t t = 0; t < set.triangle_count; t++)
+            nearest = fmin(nearest, met_by_one(&set, &set.triangle[t], &ray));
+        solid_hit hit = solid_trace(&set, &ray);
+        doubts += !hit.certain;
+        if (!hit.certain) continue;
+        hits += hit.hit;
+        assert_int_equal(hit.hit, isfinite(nearest));
+        if (!hit.hit) continue;
+        assert_true(fabs(hit.t - nearest) <= hit.t_error + 1e-12);
+        assert_true(hit.t_error < 1e-7);
+        assert_true(vec3_dot(hit.normal, ray.way) <= 0 && fabs(vec3_length(hit.normal) - 1) < 1e-12);
+    }
+    assert_true(hits > 500 && doubts < 3);
+    solid_set_free(&set);
+}
+
+/* Rays aimed at every corner, edge and face's diagonal of a closed box from outside: all meet it, and only at
+ * its outline is there any doubt. */
+static void no_ray_slips_between_two_triangles(void **state)
+{
+    (void)state;
+    solid_soup soup = {0};
+    add_box(&soup, vec3_make(-0.3, -0.7, -0.1), vec3_make(0.9, 0.2, 0.8));
+    solid_set set = set_of(&soup);
+    uint64_t seed = 3;
+    int certain = 0, tried = 0;
+    for (int i = 0; i < 20000; i++) {
+        const solid_triangle *t = &set.triangle[(size_t)i % set.triangle_count];
+        vec3 a = vec3_load(set.corner[t->corner[i % 3]]), b = vec3_load(set.corner[t->corner[(i + 1) % 3]]);
+        double part = i % 5 ? next_random(&seed) : 0;
+        vec3 aim = vec3_along(vec3_scale(a, 1 - part), part, b);
+        /* From the far side of the box through its middle: the ray has met it before it comes to the edge. */
+        vec3 middle = vec3_make(0.3, -0.25, 0.35), out = vec3_sub(middle, aim);
+        solid_ray ray = {.origin = vec3_along(middle, 3 + next_random(&seed), out), .reach = INFINITY};
+        ray.way = vec3_unit(vec3_sub(aim, ray.origin));
+        assert_true(solid_trace(&set, &ray).hit);
+        /* From within: it must come out. */
+        ray.origin = middle;
+        ray.way = vec3_unit(vec3_sub(aim, middle));
+        solid_hit hit = solid_trace(&set, &ray);
+        assert_true(hit.hit);
+        assert_true(fabs(hit.t - vec3_length(vec3_sub(aim, middle))) < 1e-12);
+        certain += hit.certain;
+        tried++;
+    }
+    assert_int_equal(certain, tried);
+    /* Past its outline, by less than rounding. */
+    const solid_ray ray = {.origin = {0.9 + 1e-15, 0, 5}, .way = {0, 0, -1}, .reach = INFINITY};
+    assert_false(solid_trace(&set, &ray).certain);
+    solid_set_free(&set);
+}
+
+/* From each of a box's faces, out to all sides: nothing is met, and nothing is in doubt, at any size and far
+ * from 0. From inside: always the far wall, never the near one. */
+static void a_ray_that_leaves_a_triangle_does_not_meet_it(void **state)
+{
+    (void)state;
+    static const double scales[] = {1e-6, 1, 1e6};
+    for (size_t k = 0; k < 6; k++) {
+        double size = scales[k % 3];
+        vec3 at = k < 3 ? vec3_make(0, 0, 0) : vec3_make(1000 * size, -700 * size, 333 * size);
+        solid_soup soup = {0};
+        add_box(&soup, vec3_add(at, vec3_make(-0.3 * size, -0.7 * size, -0.1 * size)),
+                vec3_add(at, vec3_make(0.9 * size, 0.2 * size, 0.8 * size)));
+        solid_set set = set_of(&soup);
+        uint64_t seed = 11 + k;
+        int doubts = 0;
+        for (int i = 0; i < 20000; i++) {
+            solid_ray ray = {.reach = INFINITY,
+                             .origin = vec3_along(at, 4 * size, vec3_unit(random_point(&seed, 1)))};
+            vec3 aim = vec3_add(at, vec3_make(0.3 * size, -0.25 * size, 0.35 * size));
+            ray.way = vec3_unit(vec3_sub(vec3_add(aim, random_point(&seed, 0.6 * size)), ray.origin));
+            solid_hit hit = solid_trace(&set, &ray);
+            if (!hit.hit || !hit.certain) continue;
+            ray.origin = vec3_along(ray.origin, hit.t, ray.way);
+            ray.leaves = hit.normal;
+            ray.way = vec3_unit(random_point(&seed, 1));
+            if (i % 3 == 0) /* slanting */
+                ray.way = vec3_unit(vec3_add(vec3_cross(hit.normal, ray.way), vec3_scale(hit.normal, 1e-6)));
+            bool outwards = vec3_dot(ray.way, hit.normal) > 0;
+            solid_hit next = solid_trace(&set, &ray);
+            doubts += !next.certain;
+            if (next.certain && next.hit == outwards)
+                fail_msg("size %g, ray %d %s: t %g", size, i, outwards ? "out" : "in", next.t);
+            if (next.certain && next.hit) assert_true(next.t > 1e-9 * size);
+        }
+        /* Slants of a millionth, past an edge by what rounding is a thousand sizes from 0. */
+        if (doubts > 20) fail_msg("%d rays in doubt at %g", doubts, size);
+        solid_set_free(&set);
+    }
+}
+
+/* ---- Beside the surface ---- */
+
+static const double origin[3] = {0, 0, 0};
+
+static mns_field *one_ball(double scale)
+{
+    const mns_field_desc desc = {.count = 1, .position = {.data = origin}, .uniform_radius = scale};
+    mns_field *field;
+    mns_error error;
+    if (mns_field_create(&desc, &field, &error)) fail_msg("%s", error.text);
+    return field;
+}
+
+/* A ball over a floor, under a light from straight above: what the eye meets, what the shadow hides, what the
+ * mirror shows; the same at any scale. Where the ball ends: (1 - u)^3 = 0.2. */
+static void a_floor_is_seen_shadowed_and_mirrored(void **state)
+{
+    (void)state;
+    static const double scales[] = {1e-6, 1, 1e6};
+    if (!reads_meshes()) skip();
+    for (size_t k = 0; k < 3; k++) {
+        const double s = scales[k], edge = s * sqrt(1 - cbrt(0.2));
+        char text[300];
+        path_text path;
+        snprintf(text, sizeof text, "v %g %g %g\nv %g %g %g\nv %g %g %g\nv %g %g %g\nf 1 2 3 4\n", -9 * s,
+                 -2 * s, -9 * s, -9 * s, -2 * s, 9 * s, 9 * s, -2 * s, 9 * s, 9 * s, -2 * s, -9 * s);
+        write_file(".obj", text, path);
+        const mns_mesh mesh = {.file = path, .has_color = true, .color = {1, 1, 1}};
+        const mns_light above = {.kind = MNS_LIGHT_DIRECTIONAL, .direction = {0, 1, 0}};
+        const mns_look look = {.meshes = &mesh,
+                               .mesh_count = 1,
+                               .lights = &above,
+                               .light_count = 1,
+                               .set = MNS_LOOK_AMBIENT | MNS_LOOK_DIFFUSE,
+                               .ambient = 0.25,
+                               .diffuse = 0.5,
+                               .effects = {.shadows = true, .mirror = 1, .reflections = 1}};
+        mns_field *field = one_ball(s);
+        solid_files files = {0};
+        mns_error error;
+        effects_fixture f;
+        if (solid_files_take(&files, &mesh, 1, field_unit(field), &error)) fail_msg("%s", error.text);
+        effects_fixture_open(&f, field, vec3_make(0, s, 4 * s), vec3_make(0, 0, 0), &look);
+        f.scene.solids = &files.set;
+        const struct {
+            double x, z;
+            bool lit;
+        } spots[] = {{0, 0, false}, {0.99 * edge, 0, false}, {1.01 * edge, 0, true}, {0, 1.01 * edge, true}};
+        for (size_t i = 0; i < sizeof spots / sizeof *spots; i++) {
+            reference_answer first;
+            vec3 way = vec3_make(spots[i].x, -3 * s, spots[i].z - 4 * s);
+            effects_pixel pixel = effects_fixture_shade(&f, way, &first);
+            double t = vec3_length(way) / field_unit(field);
+            assert_true(fabs(first.hit.t - t) <= 1e-6 * t && first.hit.certain && pixel.certain);
+            assert_float_equal(first.hit.normal[1], 1, 1e-6);
+            assert_float_equal(pixel.shadow, spots[i].lit ? 1 : 0, 0);
+            assert_float_equal(pixel.color[0], spots[i].lit ? 0.75 : 0.25, 1e-9);
+        }
+        /* The ball's underside is a mirror: straight down it shows the lit or the dark floor. */
+        effects_fixture_close(&f);
+        effects_fixture_open(&f, field, vec3_make(0, -1.5 * s, 0.2 * s), vec3_make(0, 0, 0.2 * s), &look);
+        f.scene.solids = &files.set;
+        effects_pixel pixel = effects_fixture_shade(&f, vec3_make(0, 1, 0), NULL);
+        assert_true(pixel.certain && isfinite(pixel.mirror));
+        double height = sqrt(edge * edge - 0.04 * s * s);
+        assert_true(pixel.mirror * field_unit(field) > 2 * s - height);
+        effects_fixture_close(&f);
+        solid_files_free(&files);
+        mns_field_destroy(field);
+        unlink(path);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_are_read),
+        cmocka_unit_test(bad_files_are_refused),
+        cmocka_unit_test(files_are_read_again_where_they_changed),
+        cmocka_unit_test(the_tree_finds_what_every_triangle_gives),
+        cmocka_unit_test(no_ray_slips_between_two_triangles),
+        cmocka_unit_test(a_ray_that_leaves_a_triangle_does_not_meet_it),
+        cmocka_unit_test(a_floor_is_seen_shadowed_and_mirrored),
+    };
+    return cmocka_run_group_tests_name("solids", tests, NULL, NULL);
+}
