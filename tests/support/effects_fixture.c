@@ -27,7 +27,8 @@ void effects_fixture_open(effects_fixture *f, const mns_field *field, vec3 eye, 
     if (fabs(ahead.y) > 0.9) view.up[0] = 1;
     if (mns_plan_create(field, &view, look, &options, NULL, &f->plan, &error)) fail_msg("%s", error.text);
     if (mns_reference_create(field, &f->reference, &error)) fail_msg("%s", error.text);
-    if (effects_begin(&f->scene, f->plan, f->reference, NULL, give_albedo, f, &error)) fail_msg("%s", error.text);
+    if (effects_begin(&f->scene, f->plan, f->reference, NULL, give_albedo, f, &error))
+        fail_msg("%s", error.text);
 }
 
 void effects_fixture_close(effects_fixture *f)
