@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The tables of effects.md: effects.py effects|yardstick PROGRAM. Called by effects.sh, which sets LIMIT, LIMIT_VECTORS, SCENES."""
+"""The tables of effects.md: effects.py effects|yardstick|truth PROGRAM. Called by effects.sh, which sets LIMIT, LIMIT_VECTORS, SCENES."""
+import csv
 import json
 import math
 import os
@@ -35,6 +36,11 @@ SHARE_LEAST = 0.6  # of the hits that cast a shadow ray
 OURS = ("list", "tile", "fbvh")  # beside the yardstick
 YARDSTICK = {"S1k": "S1_1k", "S10k": "S1_10k", "S100k": "S1_100k", "D10k": "S2_10k", "D100k": "S2_100k"}
 MOST_OVER_YARDSTICK = 1.2
+TRUTH_SIZE = os.environ.get("TRUTH_SIZE", "160x120")
+# Scenes to hold against the truth; None: the view and light of the first table.
+DAM = {"input": os.path.abspath("examples/dam.06500.lammpstrj.gz"), "field": {"kernel": "poly2", "iso": 0.35, "radius": 2.2},
+       "camera": {"eye": [112, -14, 66], "look_at": [12, 43, 25], "up": [0, 0, 1], "fov": 40}, "light": {"direction": [1, -1, 2]}}
+TRUTHS = {"molecule:10000": None, "tornado:4000": None, "pool:10000": None, "scattered:10000": None, "dam break": DAM}
 
 
 def run(command):
@@ -155,7 +161,41 @@ def print_yardstick(program):
         print("| " + " | ".join(row) + " |")
 
 
+def scene_of(program, name):
+    where, light = view(program, name)
+    numbers = [[float(v) for v in text.split(",")] for text in (where[1], where[3], light.split()[1])]
+    return {"input": name, "camera": {"eye": numbers[0], "look_at": numbers[1]}, "light": {"direction": numbers[2]}}
+
+
+def truth_of(program, scene):
+    """The rows of `compare`: shadows and one reflection by every method, against the certified tracer."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "scene.json")
+        with open(file, "w", encoding="utf-8") as out:
+            json.dump({**scene, "effects": {"shadows": True, "mirror": 0.5, "reflections": 1}}, out)
+        runs = ",".join(f"{method}:exact" for method in METHODS)
+        run([program, "compare", file, "--runs", runs, "--size", TRUTH_SIZE, "-o", os.path.join(folder, "out")])
+        with open(os.path.join(folder, "out", "results.csv"), encoding="utf-8", newline="") as table:
+            return list(csv.DictReader(table))
+
+
+def print_truth(program):
+    """Pixels whose shadow or reflection is wrong, apart from undecided ones."""
+    wrong = 0
+    print(f"{TRUTH_SIZE}, shadows and one reflection; pixels whose terms are not those of `--method reference`, apart from undecided "
+          "ones.\n")
+    print("| scene | method | compared | shadow wrong | reflection wrong | undecided |\n|-|-|-|-|-|-|")
+    for name, scene in TRUTHS.items():
+        for row in truth_of(program, scene or scene_of(program, name)):
+            wrong += int(row["shadow_wrong"]) + int(row["mirror_wrong"])
+            print("| " + " | ".join([name, f"`{row['method']}`", row["effects_compared"], row["shadow_wrong"], row["mirror_wrong"],
+                                     row["effects_undecided"]]) + " |", flush=True)
+    print(f"\n{wrong} pixels are wrong.")
+
+
+TABLES = {"effects": print_effects, "yardstick": print_yardstick, "truth": print_truth}
+
 if __name__ == "__main__":
-    if len(sys.argv) != 3 or sys.argv[1] not in ("effects", "yardstick"):
-        fail("expected effects or yardstick, and the program")
-    {"effects": print_effects, "yardstick": print_yardstick}[sys.argv[1]](sys.argv[2])
+    if len(sys.argv) != 3 or sys.argv[1] not in TABLES:
+        fail(f"expected {', '.join(TABLES)}, and the program")
+    TABLES[sys.argv[1]](sys.argv[2])

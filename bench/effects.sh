@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The tables of effects.md, measured here and now: bench/effects.sh [effects|yardstick]... (default: both). Nothing else should run
+# The tables of effects.md, measured here and now: bench/effects.sh [effects|yardstick|truth]... (default: all). Nothing else should run
 # meanwhile. Needs what ./run test installs, g++ and python3. SIZE=WxH: of the frames, 640x480 by default (a
 # small one first fills the driver's cache of programs).
 set -euo pipefail
@@ -11,12 +11,12 @@ source bench/yardstick.sh >&2
 LIMIT_VECTORS=$(yardstick_vectors)
 export SCENES LIMIT LIMIT_VECTORS
 
-[[ $# -gt 0 ]] || set -- effects yardstick
+[[ $# -gt 0 ]] || set -- effects yardstick truth
 for table in "$@"; do
     case $table in
-    effects | yardstick) python3 bench/effects.py "$table" build/release/meniscus ;;
+    effects | yardstick | truth) python3 bench/effects.py "$table" build/release/meniscus ;;
     *)
-        echo "bench/effects.sh: no table '$table'; expected effects or yardstick" >&2
+        echo "bench/effects.sh: no table '$table'; expected effects, yardstick or truth" >&2
         exit 2
         ;;
     esac
