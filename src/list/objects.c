@@ -108,9 +108,9 @@ mns_status list_passes_prepare(list_passes *p, gl_device *device, const mns_plan
 void list_passes_free(list_passes *p, gl_device *device)
 {
     const GladGLContext *gl = &device->gl;
-    gl_buffer *all[] = {&p->balls,     &p->balls_low, &p->cores,     &p->colors,
-                        &p->nodes,     &p->counter,   &p->redo,      &p->view,
-                        &p->view_wide, &p->far_block, &p->backwards, &p->tile_heads, &p->squares};
+    gl_buffer *all[] = {&p->balls,     &p->balls_low,  &p->cores,  &p->colors,    &p->nodes,
+                        &p->counter,   &p->redo,       &p->view,   &p->view_wide, &p->far_block,
+                        &p->backwards, &p->tile_heads, &p->squares};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) gl_buffer_free(device, all[i]);
     GLuint textures[] = {p->heads,       p->core_depth,  p->host_depth,
                          p->ball_texels, p->node_texels, p->head_texels};
