@@ -82,9 +82,13 @@ int any_leaf(Ray ray, Leaf leaf, bool first)
     float most = any_most[1];
     for (int i = 2; i <= ANY_PARTS; i++) value = max(value, any_value[i]);
     for (int i = 2; i < ANY_PARTS; i++) most = max(most, any_most[i]);
-    if (value > level.x + margin) return PIECE_HIT;
-    bool leaves = any_rise < 0.0 && abs(any_value[0] - level.x) <= LEAVE_DOUBT * margin;
-    bool clear = most < level.x - margin && (first ? leaves : any_most[0] < level.x - margin);
+    // The start may be off the surface by so much, and a ray that begins inside it has met nothing yet where it still is.
+    float off = first ? abs(any_value[0] - level.x) : 0.0;
+    bool begun = !first || off <= LEAVE_DOUBT * margin || any_value[0] < level.x;
+    float inside = first ? margin + off : LEAVE_DOUBT * margin;
+    if (begun && value > level.x + inside) return PIECE_HIT;
+    bool leaves = any_rise < 0.0 && off <= LEAVE_DOUBT * margin;
+    bool clear = most < level.x - margin - off && (first ? leaves : any_most[0] < level.x - margin);
     return clear ? PIECE_NONE : PIECE_LATER;
 }
 

@@ -83,7 +83,8 @@ uint64_t draw_buffers_count(const mns_renderer *r)
                               &t->balls_low,     &t->colors,
                               &t->pairs,         &t->leaves,
                               &t->references,    &r->effects.block,
-                              &r->effects.store, &r->effects.solids.buffer};
+                              &r->effects.store, &r->effects.solids.buffer,
+                              &p->squares,       &t->block_list};
     uint64_t count = 0;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) count += all[i]->id != 0;
     return count;

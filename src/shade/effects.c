@@ -291,6 +291,7 @@ void shade_effects_clear(gl_device *device, const mns_plan *plan, GLuint target)
     gl->ClearBufferfv(GL_COLOR, 0, lit);
     gl->ClearBufferfv(GL_COLOR, 1, nothing);
     gl->ClearBufferfv(GL_COLOR, 2, settled);
+    gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT); /* walks store into them next */
 }
 
 /* One invocation for each of `count`, in groups of which GL promises so many a side. */

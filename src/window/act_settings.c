@@ -12,11 +12,18 @@
 static mns_status set_option(viewer *v, const char *name, const char *value, mns_error *error)
 {
     const window_host *host = &v->desc->host;
+    const char *solver = NULL;
     mns_status status = MNS_OK;
     if (strcmp(name, "method") == 0 && v->settings->draw.solver)
-        status = host->set(host->context, "solver", NULL, error);
+        solver = mns_solver_name(v->settings->draw.solver);
+    if (solver) status = host->set(host->context, "solver", NULL, error);
     if (strcmp(name, "color-by") == 0 && value && strcmp(value, "none") == 0) value = NULL;
     if (!status) status = settings_change(v, name, value, error);
+    if (status && solver) { /* nothing has become of it: the solver is what it was */
+        mns_error unheard;
+        host->set(host->context, "solver", solver, &unheard);
+        v->settings = host->settings(host->context);
+    }
     if (status) return status;
     if (strcmp(name, "frame") == 0) frames_go(v, v->settings->frame);
     if (strcmp(name, "size") == 0) viewer_set_size(v, v->settings->view.width, v->settings->view.height);

@@ -106,10 +106,11 @@ static vec3 under_cursor(viewer *v)
 
 void events_scroll(viewer *v, double across, double by)
 {
+    bool again = v->scrolls;
     scroll_across(v, across);
     if (by == 0) return;
     /* Of several steps before the next picture all go where the first one did. */
-    vec3 towards = v->scrolls ? v->towards : under_cursor(v);
+    vec3 towards = again ? v->towards : under_cursor(v);
     camera_zoom(&v->camera, pow(0.88, by), towards);
     drawing_change(v, true);
     v->towards = towards;

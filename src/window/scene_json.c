@@ -226,6 +226,8 @@ static mns_status check_names(const window_settings *s, const mns_look *look, mn
     mns_status status = check_text(look->color_by, false, error);
     if (!status) status = check_text(look->effects.environment, true, error);
     for (size_t i = 0; i < s->input_count && !status; i++) status = check_text(s->inputs[i], true, error);
+    for (size_t i = 0; i < look->mesh_count && !status; i++)
+        status = check_text(look->meshes[i].file, true, error);
     return status;
 }
 
