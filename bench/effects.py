@@ -14,7 +14,7 @@ from common import CENTRE, camera, fail, machine, scene_path
 
 SIZE = os.environ.get("SIZE", "640x480")
 ROUNDS = 2  # of fbvh, which the goals are for; the others take their turn in the first
-REPEAT = 3
+REPEAT = 5 # of which the first two may wait for a compiler
 METHODS = ("list", "tile", "fbvh", "bvh")  # what finds the first hit; the tree of every ray after it is bvh's own, else the fitted one
 MIRROR = "--mirror 0.5 --reflections"
 # name: options ("LIGHT" is the scene's light), what its cost is over, the most it may be; all costs are in frames of plain casting by fbvh
