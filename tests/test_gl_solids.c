@@ -236,7 +236,7 @@ static void what_no_mesh_hides_stays_as_it_is(void **state)
     /* Through a file and back. */
     char path[] = "/tmp/solids-XXXXXX.exr";
     mns_error error;
-    mns_image *read;
+    mns_image *read = NULL;
     int file = mkstemps(path, 4);
     assert_true(file >= 0);
     close(file);

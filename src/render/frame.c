@@ -201,8 +201,10 @@ static void unpack_mesh(const mns_frame *f, mns_image *image, float *row_store)
     gl->BindTexture(GL_TEXTURE_2D, f->mesh);
     gl->GetTexImage(GL_TEXTURE_2D, 0, GL_RED_INTEGER, GL_UNSIGNED_INT, whole);
     gl->BindTexture(GL_TEXTURE_2D, 0);
-    for (size_t i = 0; i < width * height; i++)
-        image->mesh[i] = (float)whole[(height - 1 - i / width) * width + i % width];
+    for (size_t i = 0; i < width * height; i++) {
+        size_t row = i / width, column = i % width;
+        image->mesh[i] = (float)whole[(height - 1 - row) * width + column];
+    }
 }
 
 static void unpack(const mns_frame *f, mns_image *image, float *row_store)
