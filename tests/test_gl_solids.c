@@ -138,7 +138,7 @@ static void meshes_are_lit_and_mirrored_at_every_scale(void **state)
     if (!reads_meshes()) skip();
     for (double size = 1e-6; size < 1e7; size *= 1e6) {
         files f;
-        char what[32];
+        char what[64];
         write_files(&f, size, beside);
         mns_field *field = three_balls(size);
         const mns_view view = view_of(size);
