@@ -118,8 +118,7 @@ static void bad_files_are_refused(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         if (read_text(cases[i].ending, cases[i].text, &info, &error) != MNS_ERROR_INPUT)
             fail_msg("case %zu was taken", i);
-        if (!strstr(error.text, cases[i].says) && !strstr(error.text, "expected a mesh"))
-            fail_msg("case %zu: %s", i, error.text);
+        if (!strstr(error.text, cases[i].says)) fail_msg("case %zu: %s", i, error.text);
     }
     assert_int_equal(mns_mesh_get_info("/nowhere/a.obj", &info, &error), MNS_ERROR_IO);
     assert_non_null(strstr(error.text, "/nowhere/a.obj"));

@@ -2,6 +2,8 @@
 
 #include "base/status.h"
 
+#include <string.h>
+
 mns_status gl_buffer_reserve(gl_device *device, gl_buffer *buffer, const char *what, size_t size, size_t most,
                              mns_error *error)
 {
@@ -46,4 +48,17 @@ bool gl_buffer_unmap(gl_device *device, gl_buffer *buffer)
     bool kept = gl->UnmapBuffer(GL_ARRAY_BUFFER);
     gl->BindBuffer(GL_ARRAY_BUFFER, 0);
     return kept;
+}
+
+mns_status gl_buffer_send(gl_device *device, gl_buffer *buffer, const char *what, const void *data,
+                          size_t size, size_t most, mns_error *error)
+{
+    void *mapped;
+    do {
+        mns_status status = gl_buffer_reserve(device, buffer, what, size, most, error);
+        if (!status) status = gl_buffer_map(device, buffer, size, &mapped, error);
+        if (status) return status;
+        memcpy(mapped, data, size);
+    } while (!gl_buffer_unmap(device, buffer));
+    return MNS_OK;
 }

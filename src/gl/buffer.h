@@ -18,5 +18,9 @@ void gl_buffer_free(gl_device *device, gl_buffer *buffer);
 mns_status gl_buffer_map(gl_device *device, gl_buffer *buffer, size_t size, void **data, mns_error *error);
 /* False where the driver lost the contents meanwhile: map and write again. */
 bool gl_buffer_unmap(gl_device *device, gl_buffer *buffer);
+/* Makes room for `size` bytes, as gl_buffer_reserve, and copies them to the buffer. Errors: MEMORY,
+ * UNSUPPORTED. */
+mns_status gl_buffer_send(gl_device *device, gl_buffer *buffer, const char *what, const void *data,
+                          size_t size, size_t most, mns_error *error);
 
 #endif

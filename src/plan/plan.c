@@ -158,7 +158,8 @@ static void plan_tiles(mns_plan *plan)
         limits->max_viewport[1] >= plan_square_round(plan->frame.height))
         plan->features |= FEATURE_SQUARES;
     else
-        plan_leave_out(plan, "pixels to be cast as squares", "this driver's points are too small");
+        plan_leave_out(plan, "pixels to be cast as squares",
+                       "this driver's points or viewports are too small");
     plan_leave_out(plan, "billboards", binned);
     plan_leave_out(plan, "gather", binned);
     plan_leave_out(plan, "core depth as a pass", "cores close the tiles' masks");

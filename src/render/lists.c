@@ -42,32 +42,18 @@ static mns_status gather(draw *d, list_region region, bool *fits, mns_error *err
 
 /* ---- Tiles ---- */
 
-/* Copies `size` bytes to a buffer. */
-static mns_status send(draw *d, gl_buffer *buffer, const char *what, const void *data, size_t size,
-                       mns_error *error)
-{
-    gl_device *device = &d->r->device;
-    void *mapped;
-    do {
-        mns_status status =
-            gl_buffer_reserve(device, buffer, what, size, d->plan->limits.max_storage_block, error);
-        if (!status) status = gl_buffer_map(device, buffer, size, &mapped, error);
-        if (status) return status;
-        memcpy(mapped, data, size);
-    } while (!gl_buffer_unmap(device, buffer));
-    return MNS_OK;
-}
-
 static mns_status upload_tiles(draw *d, mns_error *error)
 {
     list_passes *p = &d->r->passes;
     const tile_bins *bins = &d->r->bins;
+    const size_t most = d->plan->limits.max_storage_block;
     size_t tiles = (size_t)bins->across * (size_t)bins->down;
-    mns_status status = send(d, &p->tile_heads, "tiles", bins->head, tiles * sizeof *bins->head, error);
+    mns_status status = gl_buffer_send(&d->r->device, &p->tile_heads, "tiles", bins->head,
+                                       tiles * sizeof *bins->head, most, error);
     p->square_count = d->plan->features & FEATURE_SQUARES ? bins->square_count : 0;
     if (!status && p->square_count)
-        status = send(d, &p->squares, "squares to be cast", bins->square,
-                      p->square_count * sizeof *bins->square, error);
+        status = gl_buffer_send(&d->r->device, &p->squares, "squares to be cast", bins->square,
+                                p->square_count * sizeof *bins->square, most, error);
     if (status) return status;
     const int grid[4] = {bins->region.x, bins->region.y, bins->across, bins->shift};
     for (int i = 0; i < 4; i++) p->tile_grid[i] = grid[i];

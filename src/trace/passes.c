@@ -183,14 +183,10 @@ static mns_status upload_blocks(trace_passes *t, gl_device *device, const mns_pl
                                 mns_error *error)
 {
     mns_status status = trace_blocks_list(&t->blocks, plan, region, error);
-    size_t size = status ? 0 : (t->blocks.list[0] + 1) * sizeof *t->blocks.list;
-    void *data;
-    do {
-        if (!status) status = map(device, plan, &t->block_list, "blocks of pixels", size, &data, error);
-        if (status) return status;
-        memcpy(data, t->blocks.list, size);
-    } while (!gl_buffer_unmap(device, &t->block_list));
-    return MNS_OK;
+    if (status) return status;
+    const uint32_t *list = t->blocks.list;
+    return gl_buffer_send(device, &t->block_list, "blocks of pixels", list, (list[0] + 1) * sizeof *list,
+                          plan->limits.max_storage_block, error);
 }
 
 mns_status trace_cast(trace_passes *t, list_passes *p, gl_device *device, const mns_plan *plan,
