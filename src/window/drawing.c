@@ -239,10 +239,10 @@ static mns_status step(viewer *v, bool moving, mns_error *error)
 
 mns_status drawing_step(viewer *v, double *again_ms, mns_error *error)
 {
-    double rest = v->moved_ms + REST_MS - clock_ms();
-    bool waits = v->held || v->now->timeline.playing, moving = waits || rest > 0;
     *again_ms = INFINITY;
     if (!v->now) return MNS_OK;
+    double rest = v->moved_ms + REST_MS - clock_ms();
+    bool waits = v->held || v->now->timeline.playing, moving = waits || rest > 0;
     mns_status status = step(v, moving, error);
     if (v->stage != STAGE_DONE && !(moving && waits)) *again_ms = moving ? rest : 0;
     return status;
