@@ -1,19 +1,12 @@
 /* Build tool: writes glsl files as a C table of {name, text}, comments stripped and line counts kept.
  * usage: embed_glsl OUTPUT.c NAME FILE.glsl ..., NAME being that of the table */
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "embed.h"
 
 /* Writes one C string literal a line of the source; returns 0, or 1 where the file cannot be read. */
 static int embed(FILE *out, const char *path)
 {
-    FILE *in = fopen(path, "r");
-    if (!in) {
-        fprintf(stderr, "embed_glsl: cannot read %s\n", path);
-        return 1;
-    }
-    const char *slash = strrchr(path, '/');
-    fprintf(out, "    {\"%s\",\n     \"", slash ? slash + 1 : path);
+    FILE *in = embed_begin(out, path);
+    if (!in) return 1;
     enum { CODE, LINE_COMMENT, BLOCK_COMMENT } state = CODE;
     for (int c = fgetc(in), next; c != EOF; c = next) {
         next = fgetc(in);
@@ -27,8 +20,7 @@ static int embed(FILE *out, const char *path)
             state = CODE;
             next = fgetc(in);
         } else if (state == CODE) {
-            if (c == '"' || c == '\\') fputc('\\', out);
-            fputc(c, out);
+            embed_put(out, c);
         }
     }
     fputs("\"},\n", out);

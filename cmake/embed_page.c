@@ -1,35 +1,18 @@
 /* Build tool: writes files as a C table of {name, text, size}, byte for byte.
  * usage: embed_page OUTPUT.c FILE ... */
-#include <stdio.h>
-#include <string.h>
+#include "embed.h"
 
 enum { LINE = 96 };
-
-static void put(FILE *out, int c)
-{
-    if (c == '"' || c == '\\') {
-        fprintf(out, "\\%c", c);
-    } else if (c < 0x20 || c >= 0x7f || c == '?') { /* three digits end an escape; "??" would be a trigraph */
-        fprintf(out, "\\%03o", (unsigned)c);
-    } else {
-        fputc(c, out);
-    }
-}
 
 /* Returns 0, or 1 where the file cannot be read. */
 static int embed(FILE *out, const char *path)
 {
-    FILE *in = fopen(path, "rb");
-    if (!in) {
-        fprintf(stderr, "embed_page: cannot read %s\n", path);
-        return 1;
-    }
-    const char *slash = strrchr(path, '/');
-    fprintf(out, "    {\"%s\",\n     \"", slash ? slash + 1 : path);
+    FILE *in = embed_begin(out, path);
+    if (!in) return 1;
     size_t size = 0;
     for (int c = fgetc(in); c != EOF; c = fgetc(in), size++) {
         if (size && size % LINE == 0) fputs("\"\n     \"", out);
-        put(out, c);
+        embed_put(out, c);
     }
     fprintf(out, "\",\n     %zu},\n", size);
     fclose(in);
