@@ -274,14 +274,50 @@ static void the_chart_can_be_made_again(void **state)
     mns_field_destroy(field);
 }
 
+/* gnuplot has eight colours; of more curves no two look the same. */
+static void no_two_curves_look_the_same(void **state)
+{
+    const cli *c = *state;
+    enum { CURVES = 20 };
+    mns_error error;
+    char note[CHART_NOTE_SIZE], seen[CURVES][40];
+    size_t size, count = 0;
+    json_t *runs = json_array();
+    for (int i = 0; i < CURVES; i++) {
+        char method[16];
+        snprintf(method, sizeof method, "m%02d", i);
+        json_array_append_new(runs, json_pack("{s:s, s:s, s:s, s:{s:f}, s:{s:{s:f}}}", "name", method,
+                                              "method", method, "solver", "exact", "ms", "median", 1.0 + i,
+                                              "errors", "t", "p99", 1e-6));
+    }
+    json_t *document = json_pack("{s:o, s:{s:s}, s:s}", "runs", runs, "input", "name", "x", "renderer", "r");
+    assert_non_null(document);
+    assert_int_equal(chart_write(document, c->folder, note, &error), MNS_OK);
+    char *script = cli_read(c, "chart.gp", &size);
+    for (const char *at = script; (at = strstr(at, "with linespoints "));) {
+        const char *end = strstr(at, " title");
+        assert_true(end && count < CURVES && end - at < 40);
+        snprintf(seen[count], sizeof seen[count], "%.*s", (int)(end - at), at);
+        for (size_t i = 0; i < count; i++) assert_string_not_equal(seen[i], seen[count]);
+        count++;
+        at = end;
+    }
+    assert_int_equal(count, CURVES);
+    assert_non_null(strstr(seen[0], " lc 1 dt 1"));
+    assert_non_null(strstr(seen[8], " lc 1 dt 2"));
+    if (!*note) assert_true(cli_exists(c, "chart.svg")); /* gnuplot takes the script */
+    assert_null(strstr(note, "ended with"));
+    free(script);
+    json_decref(document);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
     const struct CMUnitTest tests[] = {
-        TEST(json_holds_every_figure),
-        TEST(csv_has_a_row_a_run),
-        TEST(csv_has_the_rows_of_a_suite),
-        TEST(the_chart_can_be_made_again),
+        TEST(json_holds_every_figure),     TEST(csv_has_a_row_a_run),
+        TEST(csv_has_the_rows_of_a_suite), TEST(the_chart_can_be_made_again),
+        TEST(no_two_curves_look_the_same),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

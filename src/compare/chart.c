@@ -116,6 +116,16 @@ static int write_data(const chart *c, FILE *file)
     return curves;
 }
 
+/* gnuplot has eight colours: the curves after them have these again, and other dashes and points. */
+static void write_curve(FILE *file, int curve, const char *title)
+{
+    enum { COLORS = 8, TURNS = 5 };
+    static const int point[TURNS] = {7, 5, 9, 11, 13}; /* filled: a disc, a square, triangles, a diamond */
+    int turn = curve / COLORS % TURNS;
+    fprintf(file, ", \\\n '' index %d using 1:2 with linespoints pt %d ps 0.9 lc %d dt %d title '%s'", curve,
+            point[turn], curve % COLORS + 1, turn + 1, title);
+}
+
 /* In single quotes, where gnuplot knows no escape but a doubled quote. */
 static void write_quoted(FILE *file, const char *text)
 {
@@ -155,8 +165,7 @@ static void write_script(const chart *c, int curves, const json_t *document, FIL
     int curve = 0;
     for (size_t i = 0; i < c->count; i++) {
         if (!starts_curve(c, i)) continue;
-        fprintf(file, ", \\\n '' index %d using 1:2 with linespoints pt 7 ps 0.9 lc %d title '%s'", curve,
-                curve + 1, c->point[i].curve);
+        write_curve(file, curve, c->point[i].curve);
         fprintf(file, ", \\\n '' index %d using 1:2:3 with labels left offset 0.8,0.5 font ',10' notitle",
                 curve++);
     }
