@@ -23,7 +23,10 @@
 #include "paths_block.glsl"
 #include "environment.glsl"
 #ifdef SOLIDS
+#include "solids_texels.glsl"
+#ifdef RAYS_NOW
 #include "solids.glsl"
+#endif
 #endif
 #include "paths.glsl"
 #include "redo.glsl"

@@ -24,6 +24,7 @@
 #include "paths_block.glsl"
 #include "environment.glsl"
 #ifdef SOLIDS
+#include "solids_texels.glsl"
 #include "solids.glsl"
 #endif
 #include "paths.glsl"

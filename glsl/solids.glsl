@@ -1,11 +1,6 @@
 // The meshes beside the surface: a ray's first hit among their triangles, by a tree of boxes. Of what rounding could decide otherwise the
-// caller is told. The same in doubles on the CPU: src/solid/solid_trace.c.
+// caller is told. The same in doubles on the CPU: src/solid/solid_trace.c. After solids_texels.glsl.
 #include "triangle.glsl"
-
-// Texels of four words: of each node its box, rounded outwards, with its first child or triangle (lo.w) and its count of triangles (hi.w,
-// 0: inner); of each triangle its corners and its mesh, and the corners beyond its edges; of each corner its place as two floats an axis;
-// of each mesh its colour. path_solids tells where the last three begin, and how many nodes there are.
-layout(binding = 10) uniform usamplerBuffer solid_texels;
 
 const uint SOLID_ALONE = 0xffffffffu;
 
@@ -41,12 +36,6 @@ REAL3 solid_corner(uint corner)
 #else
     return uintBitsToFloat(high.xyz) - solid_start;
 #endif
-}
-
-// Linear light.
-vec3 solid_color(uint mesh)
-{
-    return uintBitsToFloat(texelFetch(solid_texels, int(path_solids.z + mesh)).rgb);
 }
 
 REAL solid_edge(REAL3 a, REAL3 b)

@@ -2,6 +2,7 @@
 // In doubles, so that nothing is left to decide. Compute shader, a pixel an invocation, eight neighbours a block of 4x2 pixels.
 #include "real.glsl"
 #include "paths_block.glsl"
+#include "solids_texels.glsl"
 #include "solids.glsl"
 #include "redo.glsl"
 #include "loops.glsl"

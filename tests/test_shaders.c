@@ -256,11 +256,29 @@ static void a_shader_has_no_variants_that_it_does_not_need(void **state)
         variant_reads(SHADER_ORDER) | variant_reads(SHADER_SHUFFLE) | variant_reads(SHADER_HOST_DRAW), 0);
 }
 
+/* Where no ray is traced beyond the first the triangles' tree is not walked: without its depth that text is
+ * not even valid. */
+static void the_tree_of_triangles_is_compiled_where_rays_walk_it(void **state)
+{
+    (void)state;
+    const mns_plan with = {.features = MNS_KERNEL_POLY3 | FEATURE_LIT | FEATURE_SOLIDS},
+                   without = {.features = MNS_KERNEL_POLY3 | FEATURE_LIT};
+    for (int shader = SHADER_EFFECTS_LIST; shader <= SHADER_EFFECTS_RESOLVE; shader++) {
+        char defines[PLAN_DEFINES];
+        bool walks = shader > SHADER_EFFECTS_PLAIN;
+        plan_shader_defines(&with, (plan_shader)shader, defines);
+        assert_int_equal(strstr(defines, "SOLID_DEPTH") != NULL, walks);
+        plan_shader_defines(&without, (plan_shader)shader, defines);
+        assert_null(strstr(defines, "SOLID"));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defines_hold_whole_numbers_only),
         cmocka_unit_test(a_shader_has_no_variants_that_it_does_not_need),
+        cmocka_unit_test(the_tree_of_triangles_is_compiled_where_rays_walk_it),
         cmocka_unit_test(every_variant_is_valid),
     };
     if (system("glslangValidator --version >/dev/null 2>&1") != 0) {

@@ -181,9 +181,9 @@ static uint64_t add_paths(const mns_plan *plan, plan_shader shader, char *define
 {
     add(defines, "PATHS", 1);
     add(defines, "PATH_STACK", path_stack(plan, f));
-    if (f & FEATURE_SOLIDS) add(defines, "SOLID_DEPTH", SOLID_DEPTH);
-    if (shader == SHADER_EFFECTS_PLAIN) return f;
+    if (shader == SHADER_EFFECTS_PLAIN) return f; /* of meshes but their colours */
     add(defines, "RAYS_NOW", 1);
+    if (f & FEATURE_SOLIDS) add(defines, "SOLID_DEPTH", SOLID_DEPTH);
     if (plan->look.light_count > 1) add(defines, "LIGHTS_MANY", 1);
     if (f & (FEATURE_EYE_INSIDE | FEATURE_EYE_ON | FEATURE_REFRACTION) && shader != SHADER_EFFECTS_ANY)
         add(defines, "BOTH_SIDES", 1);
