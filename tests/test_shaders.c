@@ -43,7 +43,7 @@ static const char *const shader_names[SHADER_COUNT] = {
 typedef struct texts {
     char folder[64];
     uint64_t seen[MOST_TEXTS];
-    size_t count;
+    size_t count, many_lights;
 } texts;
 
 static uint64_t hash(uint64_t h, const char *data, size_t size) /* FNV-1a */
@@ -73,6 +73,7 @@ static void write_text(texts *t, const char *name, const char *stage, const char
         if (t->seen[i] == h) return;
     assert_true(t->count < MOST_TEXTS);
     t->seen[t->count++] = h;
+    t->many_lights += strstr(text, "#define LIGHTS_MANY") != NULL;
     char path[160];
     snprintf(path, sizeof path, "%s/%s-%zu.%s", t->folder, name, t->count, stage);
     FILE *file = fopen(path, "w");
@@ -138,12 +139,23 @@ static uint64_t next_mask(uint64_t reads, uint64_t subset, uint64_t *chance)
     return *chance >> 48 == 0 ? 0 : mask;
 }
 
+/* How many lights there are is no feature, but some texts hang on whether there are several: LIGHTS stands
+ * for that where they do. */
+static uint64_t reads_of(plan_shader shader)
+{
+    char one[PLAN_DEFINES], many[PLAN_DEFINES];
+    const uint64_t all = ~UINT64_C(0) >> (64 - FEATURE_COUNT);
+    plan_shader_defines(&(mns_plan){.features = all, .look.light_count = 1}, shader, one);
+    plan_shader_defines(&(mns_plan){.features = all, .look.light_count = 2}, shader, many);
+    return variant_reads(shader) | (strcmp(one, many) != 0 ? FEATURE_LIGHTS : 0);
+}
+
 /* Small shaders in every variant. Of those that walk a ray, which have thousands (some 20 s of compiling),
  * enough that any three settings that can go together are together in one: of the masks those first that
  * bring most new triples. */
 static void write_all(texts *t, plan_shader shader)
 {
-    uint64_t reads = variant_reads(shader), chance = 1;
+    uint64_t reads = reads_of(shader), chance = 1;
     bool all = __builtin_popcountll(reads) < 8;
     triples *done = calloc(1, sizeof *done);
     assert_non_null(done);
@@ -152,6 +164,7 @@ static void write_all(texts *t, plan_shader shader)
         do {
             mns_plan plan = {.options = {.slots = 24, .root_steps = 48}};
             bool possible = variant_of(shader, reads, subset, &plan.features);
+            plan.look.light_count = plan.features & FEATURE_LIGHTS ? 2 : 1;
             if (possible && (all || new_triples(done, reads, plan.features, false) > least)) {
                 new_triples(done, reads, plan.features, true);
                 write_variant(t, shader, &plan);
@@ -215,7 +228,8 @@ static void every_variant_is_valid(void **state)
         assert_true(t->count > before);
         bad += complaints(t, shader_names[shader]);
     }
-    print_message("%zu texts\n", t->count);
+    print_message("%zu texts, %zu of several lights\n", t->count, t->many_lights);
+    assert_true(t->many_lights > 10);
     if (bad) fail_msg("%zu complaints; the texts are left in %s", bad, t->folder);
     remove_folder(t->folder);
     free(t);
@@ -256,6 +270,15 @@ static void a_shader_has_no_variants_that_it_does_not_need(void **state)
         variant_reads(SHADER_ORDER) | variant_reads(SHADER_SHUFFLE) | variant_reads(SHADER_HOST_DRAW), 0);
 }
 
+/* Rays to several lights, and to one that is read without asking which. */
+static void many_lights_are_a_variant(void **state)
+{
+    (void)state;
+    for (int shader = 0; shader < SHADER_COUNT; shader++)
+        assert_int_equal((reads_of((plan_shader)shader) & FEATURE_LIGHTS) != 0,
+                         shader >= SHADER_EFFECTS_ANY && shader <= SHADER_EFFECTS_RESOLVE);
+}
+
 /* Where no ray is traced beyond the first the triangles' tree is not walked: without its depth that text is
  * not even valid. */
 static void the_tree_of_triangles_is_compiled_where_rays_walk_it(void **state)
@@ -278,6 +301,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defines_hold_whole_numbers_only),
         cmocka_unit_test(a_shader_has_no_variants_that_it_does_not_need),
+        cmocka_unit_test(many_lights_are_a_variant),
         cmocka_unit_test(the_tree_of_triangles_is_compiled_where_rays_walk_it),
         cmocka_unit_test(every_variant_is_valid),
     };
