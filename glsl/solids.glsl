@@ -73,6 +73,23 @@ bool solid_outline(REAL3 a, REAL3 b, uint beside, REAL side)
     return !(side * turned > solid_room(a, b) + solid_room(a, c) + solid_room(c, b)) || solid_left(solid_normal(a, b, c));
 }
 
+// Whether a triangle that the ray meets is seen before the best so far: of two meshes in one place that of the lower number is. Floats
+// do not tell where that is.
+bool solid_first(REAL t, REAL off, uint mesh)
+{
+    bool first = t < solid_best.t;
+    if (!solid_best.hit || mesh == solid_best.mesh) return first;
+    int told = triangle_first(abs(t - solid_best.t), off + solid_best.off);
+#ifdef MNS_DOUBLE
+    if (told == TRIANGLE_NEITHER) return mesh < solid_best.mesh;
+    bool open = told == TRIANGLE_OPEN;
+#else
+    bool open = told != TRIANGLE_NEARER && solid_fine;
+#endif
+    if (open) solid_doubt = min(solid_doubt, min(t, solid_best.t) - off - solid_best.off);
+    return first;
+}
+
 // Takes a triangle that the ray meets (`within`), or may meet (`open`).
 void solid_take(REAL3 a, REAL3 b, REAL3 c, bool within, bool open, uint mesh)
 {
@@ -96,7 +113,7 @@ void solid_take(REAL3 a, REAL3 b, REAL3 c, bool within, bool open, uint mesh)
     }
     if (t - off > solid_limit) return;
     if (open || t + off >= solid_limit) solid_doubt = min(solid_doubt, t - off);
-    if (!within || t > solid_limit || !(t < solid_best.t)) return;
+    if (!within || t > solid_limit || !solid_first(t, off, mesh)) return;
     solid_best = Solid(true, false, t, off, normal * ((facing < NUM(0.0) ? NUM(1.0) : NUM(-1.0)) / size), mesh);
 }
 

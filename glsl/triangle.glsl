@@ -31,3 +31,15 @@ DENSITY_FN REAL triangle_normal(int axis, REAL ux, REAL uy, REAL uz, REAL vx, RE
     if (axis == 1) return uz * vx - ux * vz;
     return ux * vy - uy * vx;
 }
+
+// Which of two triangles a ray meets first whose distances are `apart`, where rounding may be `off` of both together, which is far
+// more than it is of triangles in one plane: the nearer; or neither, for they are in one place; or that is not known.
+#define TRIANGLE_NEARER 0
+#define TRIANGLE_NEITHER 1
+#define TRIANGLE_OPEN 2
+
+DENSITY_FN int triangle_first(REAL apart, REAL off)
+{
+    if (apart > NUM(4.0) * off) return TRIANGLE_NEARER;
+    return apart <= NUM(0.25) * off ? TRIANGLE_NEITHER : TRIANGLE_OPEN;
+}

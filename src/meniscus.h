@@ -257,7 +257,8 @@ typedef struct mns_effects {
 /* A solid beside the surface, from a mesh file (OBJ, PLY, STL, glTF; where assimp is built in: mns_version
  * tells). It is opaque, seen from both sides, and shaded as the surface but without shine, mirror or contour;
  * it hides, casts and receives shadows, occludes, and is seen in mirrors and through refraction. Its colours,
- * shadows and the rest are those of the look. The view fits the field alone. */
+ * shadows and the rest are those of the look. Of faces in one plane that of the first mesh is seen. The view
+ * fits the field alone. */
 typedef struct mns_mesh {
     const char *file; /* borrowed for the call; read again where it has changed */
     bool has_color;

@@ -200,6 +200,41 @@ static void a_mesh_in_glass_is_seen_through_it(void **state)
     drop_files(&f);
 }
 
+/* A rug in the floor's plane: the one that is named first is seen, by the eye and in the mirror. */
+static void of_meshes_in_one_plane_the_first_is_seen(void **state)
+{
+    draw_fixture *d = *state;
+    static const double beside[3] = {0.7, 0, 0.1};
+    files f;
+    if (!reads_meshes()) skip();
+    write_files(&f, 1, beside);
+    unlink(f.box);
+    write_mesh("v -0.7 -0.3 -0.9\nv -0.8 -0.3 1.1\nv 0.9 -0.3 0.8\nf 1 2 3\n", f.box);
+    mns_field *field = three_balls(1);
+    const mns_view view = view_of(1);
+    const mns_options options = {.method = MNS_METHOD_FBVH};
+    mns_mesh mesh[2] = {f.mesh[0], f.mesh[1]};
+    const mns_look look = {.lights = &sun,
+                           .light_count = 1,
+                           .meshes = mesh,
+                           .mesh_count = 2,
+                           .effects = {.shadows = true, .reflections = 1, .mirror = 0.5}};
+    for (int rug = 0; rug < 2; rug++) {
+        mesh[rug] = f.mesh[1], mesh[1 - rug] = f.mesh[0];
+        mns_image *want = draw_image(d, field, &view, &look, &truth);
+        mns_image *got = draw_image(d, field, &view, &look, &options);
+        tally sum = compare(got, want, 1e-5);
+        if (sum.wrong || sum.off > 2 || sum.open > 4)
+            fail_msg("rug %d: %d open, %d wrong, %d off", rug, sum.open, sum.wrong, sum.off);
+        assert_true(rug ? sum.seen[1] > 100 && sum.seen[2] == 0 : sum.seen[1] > 100 && sum.seen[2] > 100);
+        mns_image_destroy(want);
+        mns_image_destroy(got);
+        if (is_second(d)) break;
+    }
+    mns_field_destroy(field);
+    drop_files(&f);
+}
+
 /* ---- What is there and what is not ---- */
 
 /* A plain picture beside a mesh: of the surface every pixel that no mesh hides is as it is without, and no
@@ -267,6 +302,7 @@ int main(void)
         cmocka_unit_test(what_no_mesh_hides_stays_as_it_is),
         cmocka_unit_test(meshes_are_lit_and_mirrored_at_every_scale),
         cmocka_unit_test(a_mesh_in_glass_is_seen_through_it),
+        cmocka_unit_test(of_meshes_in_one_plane_the_first_is_seen),
     };
     return cmocka_run_group_tests_name("solids, drawn", tests, draw_fixture_setup, draw_fixture_teardown);
 }

@@ -166,11 +166,16 @@ static vec3 random_point(uint64_t *seed, double size)
     return vec3_make(size * (2 * x - 1), size * (2 * y - 1), size * (2 * z - 1));
 }
 
-static void add(solid_soup *soup, vec3 a, vec3 b, vec3 c)
+static void add_to(solid_soup *soup, uint32_t mesh, vec3 a, vec3 b, vec3 c)
 {
     vec3 corner[3] = {a, b, c};
     mns_error error;
-    if (solid_soup_add(soup, corner, 0, "test", &error)) fail_msg("%s", error.text);
+    if (solid_soup_add(soup, corner, mesh, "test", &error)) fail_msg("%s", error.text);
+}
+
+static void add(solid_soup *soup, vec3 a, vec3 b, vec3 c)
+{
+    add_to(soup, 0, a, b, c);
 }
 
 static solid_set set_of(solid_soup *soup)
@@ -316,6 +321,55 @@ static void a_ray_that_leaves_a_triangle_does_not_meet_it(void **state)
     }
 }
 
+/* Two meshes in a slanting plane, cut into other triangles, the second `above` the first as the eye sees
+ * them.
+ */
+static solid_set two_layers(bool swapped, double above)
+{
+    static const int cut[2][2][3] = {{{0, 1, 2}, {1, 3, 2}}, {{0, 1, 3}, {0, 3, 2}}};
+    solid_soup soup = {0};
+    for (uint32_t mesh = 0; mesh < 2; mesh++) {
+        vec3 v[4];
+        for (int i = 0; i < 4; i++) {
+            double x = i & 1 ? 2 : -2, y = i & 2 ? 2 : -2;
+            v[i] = vec3_make(x, y, 0.5 * x - 0.25 * y + 1024 + (mesh ? above : 0));
+        }
+        for (int i = 0; i < 2; i++) {
+            const int *at = cut[mesh][i];
+            add_to(&soup, swapped ? 1 - mesh : mesh, v[at[0]], v[at[1]], v[at[2]]);
+        }
+    }
+    return set_of(&soup);
+}
+
+/* Of meshes in one plane the first is seen, in whatever order their triangles come, and that is certain;
+ * where one lies before the other by more than rounding that one is, and in between it is told to be in
+ * doubt. */
+static void of_meshes_in_one_plane_the_first_is_seen(void **state)
+{
+    (void)state;
+    const double above[] = {0, 0, 1e-6, 1e-6, 4e-9};
+    for (int k = 0; k < 5; k++) {
+        solid_set set = two_layers(k & 1, above[k]);
+        uint64_t seed = 5;
+        int certain = 0;
+        for (int i = 0; i < 2000; i++) {
+            vec3 aim = vec3_make(1.9 * (2 * next_random(&seed) - 1), 1.9 * (2 * next_random(&seed) - 1), 0);
+            aim.z = 0.5 * aim.x - 0.25 * aim.y + 1024;
+            solid_ray ray = {.origin = vec3_add(aim, random_point(&seed, 1)), .reach = INFINITY};
+            ray.origin.z += 3;
+            ray.way = vec3_unit(vec3_sub(aim, ray.origin));
+            solid_hit hit = solid_trace(&set, &ray);
+            assert_true(hit.hit);
+            certain += hit.certain;
+            if (k == 4) continue;
+            assert_int_equal(hit.mesh, k < 2 ? 0 : k == 2);
+        }
+        assert_int_equal(certain, k < 4 ? 2000 : 0);
+        solid_set_free(&set);
+    }
+}
+
 /* ---- Beside the surface ---- */
 
 static const double origin[3] = {0, 0, 0};
@@ -398,6 +452,7 @@ int main(void)
         cmocka_unit_test(the_tree_finds_what_every_triangle_gives),
         cmocka_unit_test(no_ray_slips_between_two_triangles),
         cmocka_unit_test(a_ray_that_leaves_a_triangle_does_not_meet_it),
+        cmocka_unit_test(of_meshes_in_one_plane_the_first_is_seen),
         cmocka_unit_test(a_floor_is_seen_shadowed_and_mirrored),
     };
     return cmocka_run_group_tests_name("solids", tests, NULL, NULL);

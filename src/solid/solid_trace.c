@@ -96,6 +96,21 @@ static bool meets(const walk *w, const solid_triangle *triangle, const vec3 p[3]
     return within || !*open; /* beside an inner edge it is met, or its neighbour: nothing slips between */
 }
 
+/* Takes a triangle that is met, if it is seen before the best so far: of two meshes in one place that of the
+ * lower number is. */
+static void take(walk *w, const solid_hit *met)
+{
+    const solid_hit *best = &w->best;
+    double off = met->t_error + best->t_error;
+    bool is_first = met->t < best->t;
+    if (best->hit && met->mesh != best->mesh) {
+        int first = triangle_first(fabs(met->t - best->t), off);
+        if (first == TRIANGLE_NEITHER) is_first = met->mesh < best->mesh;
+        if (first == TRIANGLE_OPEN) w->doubt = fmin(w->doubt, fmin(met->t, best->t) - off);
+    }
+    if (is_first) w->best = *met;
+}
+
 static void test(walk *w, const solid_triangle *triangle)
 {
     vec3 p[3], d = w->ray->way;
@@ -117,9 +132,9 @@ static void test(walk *w, const solid_triangle *triangle)
     }
     if (t - off > w->ray->reach) return;
     if (open || t + off >= w->ray->reach) w->doubt = fmin(w->doubt, t - off);
-    if (!within || t > w->ray->reach || !(t < w->best.t)) return;
+    if (!within || t > w->ray->reach) return;
     n = vec3_scale(n, (facing < 0 ? 1 : -1) / size);
-    w->best = (solid_hit){.hit = true, .t = t, .t_error = off, .normal = n, .mesh = triangle->mesh};
+    take(w, &(solid_hit){.hit = true, .t = t, .t_error = off, .normal = n, .mesh = triangle->mesh});
 }
 
 /* ---- The tree ---- */
