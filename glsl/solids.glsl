@@ -48,11 +48,15 @@ REAL solid_room(REAL3 a, REAL3 b)
     return triangle_edge_margin(a.x, a.y, a.z, b.x, b.y, b.z, solid_reach, TAU);
 }
 
-// As long as twice the area.
+// As long as twice the area, in units of the longer edge: floats do not hold the square of any.
 REAL3 solid_normal(REAL3 a, REAL3 b, REAL3 c)
 {
     REAL3 u = b - a;
     REAL3 v = c - a;
+    REAL3 most = max(abs(u), abs(v));
+    REAL size = max(max(most.x, most.y), most.z);
+    u /= size;
+    v /= size;
     return REAL3(triangle_normal(0, u.x, u.y, u.z, v.x, v.y, v.z), triangle_normal(1, u.x, u.y, u.z, v.x, v.y, v.z),
                  triangle_normal(2, u.x, u.y, u.z, v.x, v.y, v.z));
 }

@@ -200,6 +200,36 @@ static void a_mesh_in_glass_is_seen_through_it(void **state)
     drop_files(&f);
 }
 
+/* A floor so large that floats do not hold its normal's square still stops the rays from beside it. */
+static void a_floor_as_wide_as_floats_allow_is_met(void **state)
+{
+    draw_fixture *d = *state;
+    static const double beside[3] = {0.7, 0.3, 0.1};
+    files f;
+    if (!reads_meshes() || is_second(d)) skip();
+    write_files(&f, 1, beside);
+    unlink(f.floor);
+    write_mesh("v -3e9 -0.3 -3e9\nv -3e9 -0.3 3e9\nv 3e9 -0.3 3e9\nv 3e9 -0.3 -3e9\nf 1 2 3 4\n", f.floor);
+    mns_field *field = three_balls(1);
+    const mns_view view = view_of(1);
+    const mns_options options = {.method = MNS_METHOD_FBVH};
+    const mns_look look = {.lights = &sun,
+                           .light_count = 1,
+                           .meshes = f.mesh,
+                           .mesh_count = 2,
+                           .effects = {.occlusion_rays = 8, .occlusion_reach = 4}};
+    mns_image *want = draw_image(d, field, &view, &look, &truth);
+    mns_image *got = draw_image(d, field, &view, &look, &options);
+    tally sum = compare(got, want, 1e-2);
+    if (sum.wrong || sum.off || sum.open > 30)
+        fail_msg("%d open, %d wrong, %d off", sum.open, sum.wrong, sum.off);
+    assert_true(sum.seen[1] > 500 && sum.seen[2] > 20);
+    mns_image_destroy(want);
+    mns_image_destroy(got);
+    mns_field_destroy(field);
+    drop_files(&f);
+}
+
 /* A rug in the floor's plane: the one that is named first is seen, by the eye and in the mirror. */
 static void of_meshes_in_one_plane_the_first_is_seen(void **state)
 {
@@ -302,6 +332,7 @@ int main(void)
         cmocka_unit_test(what_no_mesh_hides_stays_as_it_is),
         cmocka_unit_test(meshes_are_lit_and_mirrored_at_every_scale),
         cmocka_unit_test(a_mesh_in_glass_is_seen_through_it),
+        cmocka_unit_test(a_floor_as_wide_as_floats_allow_is_met),
         cmocka_unit_test(of_meshes_in_one_plane_the_first_is_seen),
     };
     return cmocka_run_group_tests_name("solids, drawn", tests, draw_fixture_setup, draw_fixture_teardown);

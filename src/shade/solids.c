@@ -8,7 +8,8 @@
 
 enum { UNIT_TEXELS = 10, UNIT_MESH = 11, UNIFORM_REGION = 3 };
 
-/* Places whose products floats hold, and the products of those again. */
+/* Places of which floats hold products of two, and their sums; glsl/solids.glsl multiplies no such product by
+ * another. */
 #define FLOATS_MOST 1e15
 
 typedef uint32_t texel[4];
