@@ -11,10 +11,10 @@
 #endif
 
 layout(std140, binding = 1) uniform Paths {
-    dvec4 path_corner; // raw direction at pixel (0, 0)
+    dvec4 path_corner; // raw direction at pixel (0, 0); w: how far the first rays' origin of coordinates is from the tree's
     dvec4 path_step_x; // its change a pixel
     dvec4 path_step_y;
-    dvec4 path_eye;    // relative to the tree's origin, as all places are
+    dvec4 path_eye;    // relative to the tree's origin, as all places are; w: depth of the plane where a far eye's rays begin, else 0
     dvec4 path_optics; // share mirrored at any angle, index of refraction, share that goes through, reach of the occlusion's rays
     dvec4 light_place[PATH_LIGHTS]; // of a directional light the unit direction to it; w: radius
     vec4 light_radiance[PATH_LIGHTS]; // linear; w: kind, as mns_light_kind

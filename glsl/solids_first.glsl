@@ -13,7 +13,17 @@ layout(binding = 1, rg32f) uniform image2D plane_t;
 layout(binding = 2, rgba32f) uniform image2D plane_normal;
 layout(binding = 3, r32ui) writeonly uniform uimage2D plane_mesh;
 
-const double FIRST_NEAR = 4.0e-6LF; // of a distance, what the surface's own in floats may be off
+const double FIRST_NEAR = 4.0e-6LF; // of the lengths that it is found by, what the surface's distance in floats may be off
+
+// Those lengths: from the eye, or from where a far eye's ray begins, and how far that is from the origin of coordinates.
+double first_lengths(vec2 position, dvec3 way, double surface)
+{
+    if (path_eye.w == 0.0LF) return surface;
+    dvec3 raw = path_corner.xyz + double(position.x) * path_step_x.xyz + double(position.y) * path_step_y.xyz;
+    double begin = path_eye.w * sqrt(dot(raw, raw));
+    dvec3 start = path_eye.xyz + begin * way;
+    return abs(surface - begin) + sqrt(dot(start, start)) + path_corner.w;
+}
 
 void main()
 {
@@ -25,9 +35,10 @@ void main()
     vec4 normal = imageLoad(plane_normal, at);
     bool meets = !isinf(t.x);
     double surface = meets ? double(t.x) + double(t.y) : FAR_AWAY;
-    Solid solid = solid_cast(path_eye.xyz, path_first_way(vec2(at) + 0.5), FAR_AWAY, dvec3(0.0), TAU, false);
+    dvec3 way = path_first_way(vec2(at) + 0.5);
+    Solid solid = solid_cast(path_eye.xyz, way, FAR_AWAY, dvec3(0.0), TAU, false);
     bool before = solid.hit && solid.t < surface;
-    bool near = meets && solid.hit && abs(solid.t - surface) <= solid.off + FIRST_NEAR * surface;
+    bool near = meets && solid.hit && abs(solid.t - surface) <= solid.off + FIRST_NEAR * first_lengths(vec2(at) + 0.5, way, surface);
     bool doubt = near || (solid.open && solid_doubt <= surface) || !loops_whole(int(path_size.w));
     imageStore(plane_mesh, at, uvec4(before ? 1u + solid.mesh : 0u));
     if (doubt && normal.w > 0.0) {

@@ -200,6 +200,36 @@ static void a_mesh_in_glass_is_seen_through_it(void **state)
     drop_files(&f);
 }
 
+/* From a hundred thousand radii away a mesh in the surface is as certain as from nearby. */
+static void a_far_eye_is_certain_of_a_mesh(void **state)
+{
+    draw_fixture *d = *state;
+    static const double within[3] = {0.55, 0.05, 0.2}, at[3] = {0.1, 0, 0};
+    files f;
+    if (!reads_meshes()) skip();
+    write_files(&f, 1, within);
+    mns_field *field = three_balls(1);
+    const mns_look look = {.lights = &sun, .light_count = 1, .meshes = f.mesh, .mesh_count = 2};
+    for (int k = 0; k < 4; k++) {
+        double away = k < 2 ? 1e5 : 3e3;
+        const double eye[3] = {0.5 * away, 0.8 * away, 2.2 * away};
+        const mns_options options = {.method = k & 1 ? MNS_METHOD_TILE : MNS_METHOD_FBVH};
+        const mns_view view = draw_view(eye, at, 45 / away, WIDTH, HEIGHT);
+        mns_image *want = draw_image(d, field, &view, &look, &truth);
+        mns_image *got = draw_image(d, field, &view, &look, &options);
+        tally sum = compare(got, want, 1e-4);
+        if (sum.wrong || sum.off > 2 || sum.open > 2)
+            fail_msg("%g away, %d: %d open, %d wrong, %d off", away, k & 1, sum.open, sum.wrong, sum.off);
+        if (sum.seen[0] < 100 || sum.seen[1] < 100 || sum.seen[2] < 10)
+            fail_msg("seen %d %d %d", sum.seen[0], sum.seen[1], sum.seen[2]);
+        mns_image_destroy(want);
+        mns_image_destroy(got);
+        if (is_second(d)) break;
+    }
+    mns_field_destroy(field);
+    drop_files(&f);
+}
+
 /* A floor so large that floats do not hold its normal's square still stops the rays from beside it. */
 static void a_floor_as_wide_as_floats_allow_is_met(void **state)
 {
@@ -332,6 +362,7 @@ int main(void)
         cmocka_unit_test(what_no_mesh_hides_stays_as_it_is),
         cmocka_unit_test(meshes_are_lit_and_mirrored_at_every_scale),
         cmocka_unit_test(a_mesh_in_glass_is_seen_through_it),
+        cmocka_unit_test(a_far_eye_is_certain_of_a_mesh),
         cmocka_unit_test(a_floor_as_wide_as_floats_allow_is_met),
         cmocka_unit_test(of_meshes_in_one_plane_the_first_is_seen),
     };

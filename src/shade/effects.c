@@ -75,6 +75,8 @@ static void put_camera(effects_block *block, const mns_plan *plan, const double 
     vec3_store(block->step_x, vec3_scale(f->right, unit));
     vec3_store(block->step_y, vec3_scale(f->up, unit));
     vec3_store(block->eye, vec3_sub(f->eye, vec3_load(plan->tree_origin)));
+    block->eye[3] = plan->plane_depth;
+    block->corner[3] = vec3_length(vec3_sub(vec3_load(plan->origin), vec3_load(plan->tree_origin)));
     block->size[0] = f->width, block->size[1] = f->height;
 }
 
