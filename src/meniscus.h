@@ -260,7 +260,7 @@ typedef struct mns_effects {
  * shadows and the rest are those of the look. Of faces in one plane that of the first mesh is seen. The view
  * fits the field alone. */
 typedef struct mns_mesh {
-    const char *file; /* borrowed for the call; read again where it has changed */
+    const char *file; /* borrowed for the call; read again where it has changed, or a file that it names */
     bool has_color;
     double color[3]; /* sRGB; without: 0.8, 0.8, 0.8 */
 } mns_mesh;
@@ -269,6 +269,7 @@ typedef struct mns_mesh_info {
     size_t triangles, corners; /* corners in one place are one */
     size_t dropped;            /* triangles without an area */
     double lo[3], hi[3];
+    uint64_t fingerprint; /* of the triangles' places: another mesh has another */
 } mns_mesh_info;
 
 /* Reads a mesh file and tells what is in it. Errors: USAGE, IO, INPUT, MEMORY, UNSUPPORTED (too many

@@ -5,6 +5,8 @@
 #include "solid/solid_files.h"
 #include "support/effects_fixture.h"
 
+#include <fcntl.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -123,6 +125,86 @@ static void bad_files_are_refused(void **state)
     assert_int_equal(mns_mesh_get_info("/nowhere/a.obj", &info, &error), MNS_ERROR_IO);
     assert_non_null(strstr(error.text, "/nowhere/a.obj"));
     assert_int_equal(mns_mesh_get_info(NULL, &info, &error), MNS_ERROR_USAGE);
+}
+
+/* Reads a bad file over and over; NULL, or what was said of another. */
+static void *read_bad_file(void *context)
+{
+    static const char not_own[] = "another file's failure";
+    const char *path = context, *name = strrchr(path, '/') + 1;
+    for (int i = 0; i < 300; i++) {
+        mns_mesh_info info;
+        mns_error error;
+        if (mns_mesh_get_info(path, &info, &error) != MNS_ERROR_INPUT) return (void *)(uintptr_t)not_own;
+        const char *reason = strstr(error.text, "glTF): ");
+        if (!reason || !strstr(reason, name)) return (void *)(uintptr_t)not_own;
+    }
+    return NULL;
+}
+
+/* assimp has one text for all failures; each thread is told of its own file all the same. */
+static void threads_are_told_of_their_own_files(void **state)
+{
+    (void)state;
+    enum { THREADS = 4 };
+    pthread_t thread[THREADS];
+    path_text path[THREADS];
+    void *wrong[THREADS];
+    if (!reads_meshes()) skip();
+    for (int i = 0; i < THREADS; i++) write_file(".xyzzy", "anything", path[i]);
+    for (int i = 0; i < THREADS; i++)
+        assert_int_equal(pthread_create(&thread[i], NULL, read_bad_file, path[i]), 0);
+    for (int i = 0; i < THREADS; i++) pthread_join(thread[i], &wrong[i]);
+    for (int i = 0; i < THREADS; i++) {
+        unlink(path[i]);
+        assert_null(wrong[i]);
+    }
+}
+
+/* The triangle's places in a file of their own, which changes. */
+static void a_file_that_a_mesh_names_is_watched_too(void **state)
+{
+    (void)state;
+    const float before[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, after[9] = {0, 0, 0, 1, 0, 0, 0, 0.5f, 0};
+    const mns_mesh_info none = {0};
+    mns_mesh_info info[2] = {none, none};
+    path_text path, places;
+    char text[600];
+    mns_error error;
+    solid_files files = {0};
+    if (!reads_meshes()) skip();
+    write_file(".bin", "", places);
+    snprintf(
+        text, sizeof text,
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":4}]}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\","
+        "\"min\":[0,0,0],\"max\":[1,1,0]}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+        "\"buffers\":[{\"byteLength\":36,\"uri\":\"%s\"}]}",
+        strrchr(places, '/') + 1);
+    write_file(".gltf", text, path);
+    const mns_mesh mesh = {.file = path};
+    uint64_t version = 0;
+    for (int i = 0; i < 2; i++) {
+        FILE *file = fopen(places, "wb");
+        assert_non_null(file);
+        assert_int_equal(fwrite(i ? after : before, sizeof before, 1, file), 1);
+        fclose(file);
+        const struct timespec written[2] = {{.tv_sec = 1000 + i}, {.tv_sec = 1000 + i}};
+        assert_int_equal(utimensat(AT_FDCWD, places, written, 0), 0); /* whatever a clock's tick is */
+        if (solid_files_take(&files, &mesh, 1, 1, &error)) fail_msg("%s", error.text);
+        assert_true(files.version != version);
+        version = files.version;
+        assert_float_equal(files.set.hi[1], i ? 0.5 : 1, 0);
+        if (solid_files_take(&files, &mesh, 1, 1, &error)) fail_msg("%s", error.text);
+        assert_int_equal(files.version, version);
+        if (mns_mesh_get_info(path, &info[i], &error)) fail_msg("%s", error.text);
+    }
+    assert_true(info[0].fingerprint != info[1].fingerprint);
+    unlink(places);
+    assert_int_equal(solid_files_take(&files, &mesh, 1, 1, &error), MNS_ERROR_INPUT);
+    unlink(path);
+    solid_files_free(&files);
 }
 
 static void files_are_read_again_where_they_changed(void **state)
@@ -448,6 +530,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_are_read),
         cmocka_unit_test(bad_files_are_refused),
+        cmocka_unit_test(threads_are_told_of_their_own_files),
+        cmocka_unit_test(a_file_that_a_mesh_names_is_watched_too),
         cmocka_unit_test(files_are_read_again_where_they_changed),
         cmocka_unit_test(the_tree_finds_what_every_triangle_gives),
         cmocka_unit_test(no_ray_slips_between_two_triangles),

@@ -106,9 +106,14 @@ static void hash_environment(hash_state *h, const char *name)
         hash_text(h, name);
 }
 
+/* A mesh goes by its triangles, which may stand in other files than that. */
 static void hash_mesh(hash_state *h, const mns_mesh *mesh)
 {
-    hash_file(h, mesh->file);
+    mns_mesh_info info;
+    if (mesh->file && !mns_mesh_get_info(mesh->file, &info, NULL))
+        hash_word(h, info.fingerprint);
+    else
+        hash_file(h, mesh->file);
     hash_word(h, mesh->has_color);
     hash_doubles(h, mesh->color, 3);
 }

@@ -4,6 +4,7 @@
 
 #include "base/vec.h"
 #include "meniscus.h"
+#include "solid/watch.h"
 
 /* Triangles of all meshes together: what indices of 32 bits and a tree's depth hold with room to spare. */
 enum { SOLID_MOST = 1 << 24, SOLID_DEPTH = 64 };
@@ -45,9 +46,9 @@ mns_status solid_soup_add(solid_soup *soup, vec3 corner[3], uint32_t mesh, const
                           mns_error *error);
 void solid_soup_free(solid_soup *soup);
 
-/* Adds a file's triangles, in scene units. Errors: IO, INPUT, MEMORY, UNSUPPORTED (also: this build reads no
- * meshes). */
-mns_status solid_read(const char *file, uint32_t mesh, solid_soup *soup, mns_error *error);
+/* Adds a file's triangles, in scene units, and notes the files that were opened for it. Errors: IO, INPUT,
+ * MEMORY, UNSUPPORTED (also: this build reads no meshes). */
+mns_status solid_read(const char *file, uint32_t mesh, solid_soup *soup, watch *opened, mns_error *error);
 
 /* Joins corners, finds each edge's neighbour, and builds the tree, all divided by `unit`. Errors: MEMORY. */
 mns_status solid_set_make(const solid_soup *soup, double unit, solid_set *set, mns_error *error);

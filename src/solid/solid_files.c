@@ -7,10 +7,11 @@
 
 static void forget(solid_files *files)
 {
-    for (size_t i = 0; i < files->count; i++) free(files->file[i].name);
-    free(files->file);
+    for (size_t i = 0; i < files->count; i++) free(files->name[i]);
+    free(files->name);
     solid_set_free(&files->set);
-    files->file = NULL;
+    watch_free(&files->opened);
+    files->name = NULL;
     files->count = 0;
 }
 
@@ -22,28 +23,20 @@ void solid_files_free(solid_files *files)
 
 static bool is_same(const solid_files *files, const mns_mesh *mesh, size_t count, double unit)
 {
-    struct stat about;
     if (files->count != count || files->unit != unit) return false;
-    for (size_t i = 0; i < count; i++) {
-        const solid_file *f = &files->file[i];
-        if (strcmp(f->name, mesh[i].file) || stat(f->name, &about) || about.st_size != f->size ||
-            about.st_mtim.tv_sec != f->time.tv_sec || about.st_mtim.tv_nsec != f->time.tv_nsec)
-            return false;
-    }
-    return true;
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(files->name[i], mesh[i].file) != 0) return false;
+    return watch_is_same(&files->opened);
 }
 
-/* What the files are now, before they are read: one that changes meanwhile is read again. */
 static bool note(solid_files *files, const mns_mesh *mesh, size_t count)
 {
-    files->file = memory_array(count, sizeof *files->file);
-    if (!files->file) return false;
+    files->name = memory_array(count, sizeof *files->name);
+    if (!files->name) return false;
     for (size_t i = 0; i < count; i++) {
-        struct stat about = {0};
-        stat(mesh[i].file, &about);
-        files->file[i] = (solid_file){strdup(mesh[i].file), about.st_mtim, about.st_size};
+        files->name[i] = strdup(mesh[i].file);
+        if (!files->name[i]) return false;
         files->count = i + 1;
-        if (!files->file[i].name) return false;
     }
     return true;
 }
@@ -57,7 +50,7 @@ mns_status solid_files_take(solid_files *files, const mns_mesh *mesh, size_t cou
     forget(files);
     if (!note(files, mesh, count)) status = status_no_memory(error, "while reading meshes");
     for (size_t i = 0; i < count && !status; i++)
-        status = solid_read(mesh[i].file, (uint32_t)i, &soup, error);
+        status = solid_read(mesh[i].file, (uint32_t)i, &soup, &files->opened, error);
     if (!status) status = solid_set_make(&soup, unit, &files->set, error);
     solid_soup_free(&soup);
     if (status) forget(files);
@@ -66,19 +59,37 @@ mns_status solid_files_take(solid_files *files, const mns_mesh *mesh, size_t cou
     return status;
 }
 
+/* FNV-1a over the corners, in words. */
+static uint64_t fingerprint_of(const solid_soup *soup)
+{
+    uint64_t h = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < 3 * soup->count; i++)
+        for (int a = 0; a < 3; a++) {
+            uint64_t word;
+            memcpy(&word, &soup->corner[i][a], sizeof word);
+            h = (h ^ word) * 0x100000001b3u;
+            h ^= h >> 29;
+        }
+    return h;
+}
+
 mns_status mns_mesh_get_info(const char *file, mns_mesh_info *info, mns_error *error)
 {
     solid_soup soup = {0};
     solid_set set = {0};
+    watch opened = {0};
     if (!file || !info) return status_fail(error, MNS_ERROR_USAGE, "mesh: no file, or nowhere to put it");
-    mns_status status = solid_read(file, 0, &soup, error);
+    mns_status status = solid_read(file, 0, &soup, &opened, error);
     if (!status) status = solid_set_make(&soup, 1, &set, error);
     if (!status) {
-        *info = (mns_mesh_info){
-            .triangles = set.triangle_count, .corners = set.corner_count, .dropped = set.dropped};
+        *info = (mns_mesh_info){.triangles = set.triangle_count,
+                                .corners = set.corner_count,
+                                .dropped = set.dropped,
+                                .fingerprint = fingerprint_of(&soup)};
         memcpy(info->lo, set.lo, sizeof info->lo);
         memcpy(info->hi, set.hi, sizeof info->hi);
     }
+    watch_free(&opened);
     solid_set_free(&set);
     solid_soup_free(&soup);
     return status;

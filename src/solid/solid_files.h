@@ -1,24 +1,18 @@
-/* The meshes of a look, read once and kept as long as their files stay as they are. */
+/* The meshes of a look, read once and kept as long as their files, and those that these name, stay as they
+ * are. */
 #ifndef MNS_SOLID_SOLID_FILES_H
 #define MNS_SOLID_SOLID_FILES_H
 
 #include "solid/solid.h"
-
-#include <sys/stat.h>
-
-typedef struct solid_file {
-    char *name;
-    struct timespec time;
-    off_t size;
-} solid_file;
 
 /* Zeroed: none. */
 typedef struct solid_files {
     solid_set set;
     double unit;      /* of its lengths */
     uint64_t version; /* changes with the set */
-    solid_file *file;
+    char **name;      /* a mesh */
     size_t count;
+    watch opened;
 } solid_files;
 
 /* Reads the meshes, in that unit, unless they are there as they are. Errors: as solid_read. */

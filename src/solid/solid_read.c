@@ -1,11 +1,9 @@
 /* Meshes from files, by assimp's C interface. What it reads are floats. */
 #include "base/status.h"
 #include "solid/solid.h"
+#include "solid/solid_import.h"
 
 #include <assimp/cimport.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-#include <assimp/version.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -81,7 +79,7 @@ static mns_status add_node(reading *r, const struct aiNode *node, const placing 
     return status;
 }
 
-mns_status solid_read(const char *file, uint32_t mesh, solid_soup *soup, mns_error *error)
+mns_status solid_read(const char *file, uint32_t mesh, solid_soup *soup, watch *opened, mns_error *error)
 {
     static const placing here = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
     size_t before = soup->count;
@@ -89,16 +87,13 @@ mns_status solid_read(const char *file, uint32_t mesh, solid_soup *soup, mns_err
     if (!there)
         return status_fail(error, MNS_ERROR_IO, "%s: cannot open the mesh: %s", file, strerror(errno));
     fclose(there);
-    const struct aiScene *scene = aiImportFile(file, aiProcess_Triangulate | aiProcess_ValidateDataStructure);
-    if (!scene || !scene->mRootNode) {
-        mns_status status =
-            status_fail(error, MNS_ERROR_INPUT, "%s: expected a mesh (OBJ, PLY, STL, glTF): %s", file,
-                        scene ? "it has no root" : aiGetErrorString());
-        if (scene) aiReleaseImport(scene);
-        return status;
-    }
+    const struct aiScene *scene;
+    mns_status status = solid_import(file, opened, &scene, error);
+    if (status) return status;
+    if (!scene->mRootNode)
+        status = status_fail(error, MNS_ERROR_INPUT, "%s: it has no root; expected a whole mesh", file);
     reading r = {file, scene, mesh, soup, error};
-    mns_status status = add_node(&r, scene->mRootNode, &here, 0);
+    if (!status) status = add_node(&r, scene->mRootNode, &here, 0);
     aiReleaseImport(scene);
     if (!status && soup->count == before)
         return status_fail(error, MNS_ERROR_INPUT, "%s: no triangles in it; expected a mesh with faces",
