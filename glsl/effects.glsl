@@ -89,10 +89,13 @@ Answer ask(bool first, out int work)
     if (!BOUNDS_TELL) return answer;
 #ifdef SOLIDS
     Solid solid = solid_ask(TAU);
+    work = solid_work;
     if (!solid.open && solid.hit) answer.found = PIECE_HIT;
     if (solid.open || solid.hit) return answer;
 #endif
-    answer.found = tree_any(path_ray, path_limit, work);
+    int looked;
+    answer.found = tree_any(path_ray, path_limit, looked);
+    work += looked;
     return answer;
 }
 #else
@@ -105,6 +108,7 @@ Answer ask(bool first, out int work)
     float limit = path_limit;
 #ifdef SOLIDS
     Solid solid = solid_ask(TAU);
+    work = solid_work;
     path_met_solid = false;
     if (solid.open || (solid.hit && path_asks != ASKS_PATH)) {
         answer.found = solid.open ? PIECE_OPEN : PIECE_HIT;
@@ -113,7 +117,7 @@ Answer ask(bool first, out int work)
     limit = solid_before(solid);
 #endif
     Cast got = tree_cast(path_ray, 0.0, limit, path_inwards ? 1.0 : -1.0);
-    work = cast_work;
+    work += cast_work;
     answer.found = got.found;
     answer.t = got.t;
 #if defined(SOLIDS) && defined(PATHS_ON)

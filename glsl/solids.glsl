@@ -21,6 +21,7 @@ REAL solid_limit = NUM(0.0);
 REAL solid_begin = NUM(0.0);     // what the start may be off, of the lengths around
 bool solid_fine = false;         // which of two triangles is met matters
 REAL solid_doubt = NUM(0.0);     // before this nothing is in doubt
+int solid_work = 0;              // nodes and triangles looked at
 Solid solid_best = Solid(false, false, NUM(0.0), NUM(0.0), REAL3(0.0), 0u);
 vec3 solid_near = vec3(0.0);     // the start, its slabs' scale and slack, in floats
 vec3 solid_inverse = vec3(0.0);
@@ -180,6 +181,7 @@ void solid_walk()
     while (goes_on) {
         uvec4 low = texelFetch(solid_texels, int(2u * node));
         uint count = texelFetch(solid_texels, int(2u * node + 1u)).w;
+        solid_work += 1 + int(count);
         float enter_first = float(FAR_AWAY);
         float enter_second = float(FAR_AWAY);
         if (count == 0u) {
@@ -216,6 +218,7 @@ Solid solid_cast(REAL3 start, REAL3 way, REAL limit, REAL3 leaves, REAL begin, b
     solid_begin = begin;
     solid_fine = fine;
     solid_doubt = FAR_AWAY;
+    solid_work = 0;
     solid_best = Solid(false, false, FAR_AWAY, NUM(0.0), REAL3(0.0), 0u);
     solid_aim();
     solid_walk();

@@ -200,6 +200,48 @@ static void a_mesh_in_glass_is_seen_through_it(void **state)
     drop_files(&f);
 }
 
+/* A bumpy sheet of about a hundred thousand triangles under the field, in place of the floor. */
+static void write_sheet(char path[40])
+{
+    enum { SIDE = 224 };
+    snprintf(path, 40, "/tmp/solids-XXXXXX.obj");
+    FILE *file = fdopen(mkstemps(path, 4), "w");
+    assert_non_null(file);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double x = 4.0 * (i % SIDE) / SIDE - 2, z = 4.0 * (i / SIDE) / SIDE - 2;
+        fprintf(file, "v %.6f %.6f %.6f\n", x, -0.4 + 0.1 * sin(31 * x) * sin(37 * z), z);
+    }
+    for (int i = 1; i < SIDE * (SIDE - 1); i++)
+        if (i % SIDE)
+            fprintf(file, "f %d %d %d\nf %d %d %d\n", i, i + SIDE, i + 1, i + 1, i + SIDE, i + SIDE + 1);
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Whose walks are long: each dispatch takes its part of them, and no driver's cut is come near. */
+static void a_mesh_of_many_triangles_is_walked_in_parts(void **state)
+{
+    draw_fixture *d = *state;
+    static const double beside[3] = {0.7, 0, 0.1};
+    files f;
+    if (!reads_meshes() || is_second(d)) skip();
+    write_files(&f, 1, beside);
+    unlink(f.floor);
+    write_sheet(f.floor);
+    mns_field *field = three_balls(1);
+    const mns_options options = {.method = MNS_METHOD_FBVH};
+    const mns_view view = view_of(1);
+    const mns_look look = {
+        .lights = &sun,
+        .light_count = 1,
+        .meshes = f.mesh,
+        .mesh_count = 2,
+        .effects = {
+            .shadows = true, .reflections = 1, .mirror = 0.5, .occlusion_rays = 64, .occlusion_reach = 4}};
+    expect_truth(d, field, &view, &look, &options, 1e-5, 2, "a sheet");
+    mns_field_destroy(field);
+    drop_files(&f);
+}
+
 /* From a hundred thousand radii away a mesh in the surface is as certain as from nearby. */
 static void a_far_eye_is_certain_of_a_mesh(void **state)
 {
@@ -362,6 +404,7 @@ int main(void)
         cmocka_unit_test(what_no_mesh_hides_stays_as_it_is),
         cmocka_unit_test(meshes_are_lit_and_mirrored_at_every_scale),
         cmocka_unit_test(a_mesh_in_glass_is_seen_through_it),
+        cmocka_unit_test(a_mesh_of_many_triangles_is_walked_in_parts),
         cmocka_unit_test(a_far_eye_is_certain_of_a_mesh),
         cmocka_unit_test(a_floor_as_wide_as_floats_allow_is_met),
         cmocka_unit_test(of_meshes_in_one_plane_the_first_is_seen),
