@@ -109,7 +109,8 @@ int tree_any(Ray ray, float limit, out int work)
         Leaf leaf = tree_leaf_at(tree_link, 0.0, limit);
         if (!(leaf.begin <= leaf.end)) leaf.past = leaf.first;
         work += 1 + int(leaf.past - leaf.first);
-        int told = leaf.past > leaf.first ? any_leaf(ray, leaf, leaf.begin == 0.0) : PIECE_NONE;
+        bool first = leaf.begin == 0.0 && path_on_surface(); // on a mesh f is not L: that leaf is as any
+        int told = leaf.past > leaf.first ? any_leaf(ray, leaf, first) : PIECE_NONE;
         found = told == PIECE_NONE ? found : told;
         tree_next();
     }
