@@ -27,8 +27,9 @@ struct panel {
     const char *phase_name[PANEL_PHASES];
     int at;
     size_t draws;
-    float iso, radius_scale; /* while a slider is held */
-    float scale;             /* of its letters, framebuffer units */
+    float iso, radius_scale;   /* while a slider is held */
+    float scale;               /* of its letters, framebuffer units */
+    float width;               /* of its window; 0: not shown yet */
     char acts[ACTS][ACT_SIZE]; /* what this showing asked for */
     int act_count;
 };
@@ -93,7 +94,8 @@ void graph(panel *p, const char *name, const float *history)
 {
     char text[64];
     snprintf(text, sizeof text, "%s %.2f ms", name, static_cast<double>(history[p->at]));
-    ImGui::PlotLines("##graph", history, HISTORY, (p->at + 1) % HISTORY, text, 0, FLT_MAX, ImVec2(ImGui::GetContentRegionAvail().x, 3 * ImGui::GetFontSize()));
+    ImGui::PlotLines("##graph", history, HISTORY, (p->at + 1) % HISTORY, text, 0, FLT_MAX,
+                     ImVec2(ImGui::GetContentRegionAvail().x, 3 * ImGui::GetFontSize()));
 }
 
 void times(panel *p)
@@ -160,7 +162,17 @@ void controls(panel *p, const panel_content &c)
     if (ImGui::Button("keys")) p->help = !p->help;
 }
 
-/* Dear ImGui counts in the window's units: where these are larger than pixels already, nothing is left to do. */
+/* What the longest label takes beside its control. */
+float room_for_labels(const panel_content &c)
+{
+    float room = ImGui::CalcTextSize("field of view").x;
+    for (size_t i = 0; i < c.choice_count; i++)
+        room = std::fmax(room, ImGui::CalcTextSize(c.choice[i].label).x);
+    return room + ImGui::GetStyle().ItemInnerSpacing.x;
+}
+
+/* Dear ImGui counts in the window's units: where these are larger than pixels already, nothing is left to do.
+ */
 void fit_monitor(panel *p)
 {
     GLFWwindow *window = static_cast<GLFWwindow *>(p->desc.window);
@@ -176,14 +188,22 @@ void fit_monitor(panel *p)
     ImGui::StyleColorsDark();
     ImGui::GetStyle().ScaleAllSizes(scale);
     ImGui::GetIO().FontGlobalScale = scale;
+    p->width *= scale / p->scale;
     p->scale = scale;
 }
 
 void main_window(panel *p, const panel_content &c)
 {
     ImGui::SetNextWindowPos(ImVec2(8, 8), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(ImVec2(320 * p->scale, 0), ImGuiCond_FirstUseEver);
-    if (ImGui::Begin("meniscus")) {
+    /* As wide as a hand has it, as high as what it shows: that comes and goes. */
+    if (!(p->width > 0)) p->width = 320 * p->scale;
+    ImGui::SetNextWindowSizeConstraints(ImVec2(200 * p->scale, 0),
+                                        ImVec2(FLT_MAX, std::fmax(ImGui::GetIO().DisplaySize.y - 16, 64)));
+    ImGui::SetNextWindowSize(ImVec2(p->width, 0));
+    bool open = ImGui::Begin("meniscus");
+    p->width = ImGui::GetWindowWidth();
+    if (open) {
+        ImGui::PushItemWidth(-room_for_labels(c));
         controls(p, c);
         sequence(p, c);
         effects(p, c);
@@ -194,6 +214,7 @@ void main_window(panel *p, const panel_content &c)
             ImGui::Separator();
             ImGui::TextWrapped("%s", c.status);
         }
+        ImGui::PopItemWidth();
     }
     ImGui::End();
     if (!p->help) return;
