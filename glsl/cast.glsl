@@ -41,7 +41,7 @@
 
 layout(location = 0) out vec2 out_t;
 layout(location = 1) out vec4 out_normal;
-#ifdef COLORS
+#ifdef BLENDS
 layout(location = 2) out vec4 out_color;
 #endif
 
@@ -126,7 +126,7 @@ void main()
     }
     out_t = pixel.t;
     out_normal = pixel.normal;
-#ifdef COLORS
+#ifdef BLENDS
     out_color = pixel.color;
 #endif
 }

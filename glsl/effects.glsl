@@ -138,6 +138,7 @@ Answer ask(bool first, out int work)
     answer.t = got.t + surface.shift;
     answer.normal = surface.normal;
     answer.albedo = lighting_albedo(surface.color);
+    path_met(surface.color);
 #endif
     return answer;
 }

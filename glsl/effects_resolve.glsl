@@ -144,6 +144,7 @@ void use(int found, REAL s)
     if (found == PIECE_HIT && path_asks == ASKS_PATH) surface = surface_at(leaf_ray, s);
     if (found != PIECE_HIT && found != PIECE_NONE) path_doubt = true;
     if (abs(surface.shift) <= NUM(1.0e-2) * surface.radius) s += surface.shift;
+    path_met(surface.color);
     path_use(found == PIECE_HIT, s, surface.normal, lighting_albedo(surface.color));
 }
 

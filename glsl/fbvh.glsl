@@ -34,7 +34,9 @@ layout(std430, binding = 7) readonly buffer Blocks {
 };
 layout(binding = 1, rg32f) writeonly uniform image2D plane_t;
 layout(binding = 2, rgba32f) writeonly uniform image2D plane_normal;
-#ifdef COLORS
+#ifdef MATERIALS
+layout(binding = 3, rgba32f) writeonly uniform image2D plane_color;
+#elif defined(COLORS)
 layout(binding = 3, rgba16f) writeonly uniform image2D plane_color;
 #endif
 #ifdef COUNTERS
@@ -88,7 +90,7 @@ void main()
     }
     imageStore(plane_t, at, vec4(pixel.t, 0.0, 0.0));
     imageStore(plane_normal, at, pixel.normal);
-#ifdef COLORS
+#ifdef BLENDS
     imageStore(plane_color, at, pixel.color);
 #endif
 #ifdef COUNTERS

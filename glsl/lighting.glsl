@@ -10,10 +10,35 @@ layout(std140, binding = LIGHTING_BLOCK) uniform Shade {
     vec4 way_x;         // its change a pixel
     vec4 way_y;
     vec4 map[10];       // colour map, sRGB
+#ifdef MATERIALS
+    vec4 second_color;  // of the second material: linear; a: 1 where it has one of its own
+    vec4 second_optics; // share mirrored at any angle, share that goes through
+    vec4 second_absorption; // a unit of length
+#endif
 };
 
-// The surface's own colour; `blend` is what its balls' colours or values come to (surface.glsl).
-vec3 lighting_albedo(vec4 blend)
+#ifdef MATERIALS
+// How much of the second material is in a blend of balls (surface.glsl).
+float lighting_weight(vec4 blend)
+{
+    return clamp(blend.a, 0.0, 1.0);
+}
+
+// So far from the first material's to the second's; at the ends exactly theirs.
+float lighting_between(float first, float second, float weight)
+{
+    return weight >= 1.0 ? second : first + weight * (second - first);
+}
+
+vec3 lighting_between(vec3 first, vec3 second, float weight)
+{
+    return vec3(lighting_between(first.r, second.r, weight), lighting_between(first.g, second.g, weight),
+                lighting_between(first.b, second.b, weight));
+}
+#endif
+
+// The first material's colour; `blend` is what its balls' colours or values come to (surface.glsl).
+vec3 lighting_first(vec4 blend)
 {
 #if defined(COLORS) && defined(COLOR_LABELS)
     return blend.rgb;
@@ -23,6 +48,16 @@ vec3 lighting_albedo(vec4 blend)
     return color_linear(mix(map[low].rgb, map[low + 1].rgb, place - float(low)));
 #else
     return surface_color.rgb;
+#endif
+}
+
+// The surface's own colour.
+vec3 lighting_albedo(vec4 blend)
+{
+#ifdef MATERIALS
+    return lighting_between(lighting_first(blend), second_color.rgb, second_color.a * lighting_weight(blend));
+#else
+    return lighting_first(blend);
 #endif
 }
 

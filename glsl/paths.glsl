@@ -58,6 +58,7 @@ const int path_asks = ASKS_LIGHT;
 #endif
 
 #include "paths_kind.glsl"
+#include "paths_material.glsl"
 
 // ---- Places
 
@@ -76,16 +77,7 @@ REAL place_cosine()
 // What of the light is neither mirrored nor goes through.
 float place_opaque()
 {
-    return place_solid ? 1.0 : (1.0 - float(path_optics.z)) * (1.0 - place_mirrored);
-}
-
-vec3 path_absorbed(REAL way)
-{
-#ifdef ABSORPTION
-    return exp(-path_absorption.rgb * float(way));
-#else
-    return vec3(1.0);
-#endif
+    return place_solid ? 1.0 : (1.0 - place_transmission()) * (1.0 - place_mirrored);
 }
 
 // The place's normal and viewer, for a ray that came along `way`.
@@ -106,7 +98,7 @@ void place_take(uint path, REAL3 way, REAL3 outward, REAL length, vec3 share, uv
 #endif
     place_share = place_inside ? share * path_absorbed(length) : share;
     place_left = left;
-    place_mirrored = float(path_optics.x);
+    place_mirrored = place_mirror();
 #ifdef FRESNEL
     float shown = float(optics_fresnel(place_ratio(), place_cosine()));
     place_mirrored = shown == 1.0 ? 1.0 : place_mirrored + (1.0 - place_mirrored) * shown;
@@ -250,6 +242,7 @@ void path_put_off(REAL3 way, uint path, bool traced, uvec2 left, float share, bo
     wait_at[path_top] = vec3(place_at);
     wait_way[path_top] = vec3(way);
     wait_share[path_top] = part;
+    wait_weigh(path_top);
     wait_rest[path_top] = uvec4(path, left, inwards ? 1u : 0u);
     path_top++;
 }
@@ -271,7 +264,7 @@ void place_finish()
         path_color += place_share * (place_shine + place_opaque() * shaded);
     }
 #ifdef REFRACTION
-    float passes = place_solid ? 0.0 : float(path_optics.z) * (1.0 - place_mirrored);
+    float passes = place_solid ? 0.0 : place_transmission() * (1.0 - place_mirrored);
     if (passes > 0.0) {
         uint some = min(place_left.y, 1u);
         path_put_off(place_refracted_way(), 2u * place_path + 1u, some > 0u, place_left - uvec2(0u, some), passes, !place_inside);
@@ -349,6 +342,7 @@ void path_use(bool hit, REAL length, REAL3 outward, vec3 albedo)
 #ifdef SOLIDS
     place_solid = path_met_solid;
 #endif
+    place_weigh_met(path_top);
     place_take(rest.x, path_ray.way, outward, length, share, rest.yz);
 #endif
 }
@@ -377,5 +371,6 @@ void path_begin(ivec2 at, vec2 t, vec3 outward, vec4 blend, uint mesh)
     place_solid = mesh > 0u;
     if (place_solid) place_albedo = solid_color(mesh - 1u);
 #endif
+    place_weigh_first(blend);
     place_take(1u, REAL3(way), REAL3(outward), REAL(length), vec3(1.0), path_levels.xy);
 }

@@ -8,7 +8,7 @@ void finish(ivec2 at)
 
 void begin(ivec2 at)
 {
-#ifdef COLORS
+#ifdef BLENDS
     vec4 blend = texelFetch(plane_color, at, 0);
 #else
     vec4 blend = vec4(0.0);

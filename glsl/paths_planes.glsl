@@ -5,7 +5,7 @@ layout(local_size_x = 64) in;
 layout(location = 3) uniform ivec4 path_region; // x, y, past x, past y
 layout(binding = 6) uniform sampler2D plane_t;
 layout(binding = 7) uniform sampler2D plane_normal;
-#ifdef COLORS
+#ifdef BLENDS
 layout(binding = 8) uniform sampler2D plane_color;
 #endif
 #ifdef SOLIDS

@@ -29,7 +29,7 @@ void path_save(uint slot)
     path_store[at + 4u] = store_bits(vec3(place_at), place_mirrored);
     path_store[at + 5u] = store_bits(vec3(place_normal), place_solid ? 1.0 : 0.0);
     path_store[at + 6u] = store_bits(vec3(place_viewer), 0.0);
-    path_store[at + 7u] = store_bits(place_albedo, 0.0);
+    path_store[at + 7u] = store_bits(place_albedo, place_weight);
     path_store[at + 8u] = store_bits(place_share, 0.0);
     path_store[at + 9u] = store_bits(place_shaded, 0.0);
     path_store[at + 10u] = store_bits(place_shine, 0.0);
@@ -38,7 +38,11 @@ void path_save(uint slot)
     for (int i = 0; i < path_top; i++) {
         path_store[at] = uvec4(floatBitsToUint(wait_at[i]), wait_rest[i].x);
         path_store[at + 1u] = uvec4(floatBitsToUint(wait_way[i]), wait_rest[i].y | wait_rest[i].z << 8u | wait_rest[i].w << 16u);
+#ifdef MATERIALS
+        path_store[at + 2u] = store_bits(wait_share[i], wait_weight[i]);
+#else
         path_store[at + 2u] = store_bits(wait_share[i], 0.0);
+#endif
         at += 3u;
     }
 #endif
@@ -72,6 +76,9 @@ void path_load(ivec2 pixel, uint slot)
 #endif
     place_viewer = REAL3(store_vector(at + 6u));
     place_albedo = store_vector(at + 7u);
+#ifdef MATERIALS
+    place_weight = uintBitsToFloat(path_store[at + 7u].w);
+#endif
     place_share = store_vector(at + 8u);
     place_shaded = store_vector(at + 9u);
     place_shine = store_vector(at + 10u);
@@ -83,6 +90,9 @@ void path_load(ivec2 pixel, uint slot)
         wait_at[i] = uintBitsToFloat(one.xyz);
         wait_way[i] = uintBitsToFloat(two.xyz);
         wait_share[i] = store_vector(at + 2u);
+#ifdef MATERIALS
+        wait_weight[i] = uintBitsToFloat(path_store[at + 2u].w);
+#endif
         wait_rest[i] = uvec4(one.w, two.w & 0xffu, two.w >> 8u & 0xffu, two.w >> 16u);
         at += 3u;
     }

@@ -4,7 +4,9 @@
 layout(local_size_x = REDO_GROUP) in;
 layout(binding = 1, rg32f) writeonly uniform image2D plane_t;
 layout(binding = 2, rgba32f) writeonly uniform image2D plane_normal;
-#ifdef COLORS
+#ifdef MATERIALS
+layout(binding = 3, rgba32f) writeonly uniform image2D plane_color;
+#elif defined(COLORS)
 layout(binding = 3, rgba16f) writeonly uniform image2D plane_color;
 #endif
 
@@ -40,7 +42,7 @@ void resolve_finish(uint index, uvec4 entry, uint held, int found, REAL s, Surfa
     if (pixel.normal.w == 0.0) atomicAdd(count_undecided, 1u);
     imageStore(plane_t, at, vec4(pixel.t, 0.0, 0.0));
     imageStore(plane_normal, at, pixel.normal);
-#ifdef COLORS
+#ifdef BLENDS
     imageStore(plane_color, at, pixel.color);
 #endif
 }

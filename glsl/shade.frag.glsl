@@ -16,13 +16,13 @@ void main()
 #else
 layout(binding = 0) uniform sampler2D plane_t;
 layout(binding = 1) uniform sampler2D plane_normal;
-#ifdef COLORS
+#ifdef BLENDS
 layout(binding = 2) uniform sampler2D plane_color;
 #endif
 
 vec3 albedo(ivec2 at)
 {
-#ifdef COLORS
+#ifdef BLENDS
     return lighting_albedo(texelFetch(plane_color, at, 0));
 #else
     return lighting_albedo(vec4(0.0));

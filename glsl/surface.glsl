@@ -5,22 +5,38 @@ struct Surface {
     REAL blur;      // about how far rounding may have moved the hit
     REAL radius;    // the least of the balls around
     REAL3 normal;   // outward unit normal, -grad f / |grad f|
-    vec4 color;     // density-weighted mean of the balls' colours or values (COLORS)
+    vec4 color;     // density-weighted mean of the balls' colours or values (COLORS); a: place between two materials (MATERIALS)
 };
 
-#ifdef COLORS
+#ifdef BLENDS
 #ifdef COLOR_LABELS
 #include "color.glsl"
-layout(std430, binding = 4) readonly buffer BallColors {
-    uint ball_color[];  // rgba8, sRGB
-};
-vec4 color_of(uint ball) { return vec4(color_linear(unpackUnorm4x8(ball_color[ball]).rgb), 1.0); }
-#else
-layout(std430, binding = 4) readonly buffer BallValues {
-    float ball_color[];  // place in the colour map's range, 0 to 1
-};
-vec4 color_of(uint ball) { return vec4(ball_color[ball], 0.0, 0.0, 1.0); }
 #endif
+#if defined(COLORS) && defined(MATERIALS)
+#define BALL_WORDS 2u
+#else
+#define BALL_WORDS 1u
+#endif
+// Of each ball its colour (COLORS: a place in the colour map's range as float, or an rgba8, sRGB, with COLOR_LABELS), then its place
+// between two materials as float (MATERIALS).
+layout(std430, binding = 4) readonly buffer BallWords {
+    uint ball_word[];
+};
+
+vec4 color_of(uint ball)
+{
+    vec4 color = vec4(0.0, 0.0, 0.0, 1.0);
+    uint at = ball * BALL_WORDS;
+#ifdef COLOR_LABELS
+    color.rgb = color_linear(unpackUnorm4x8(ball_word[at]).rgb);
+#elif defined(COLORS)
+    color.r = uintBitsToFloat(ball_word[at]);
+#endif
+#ifdef MATERIALS
+    color.a = uintBitsToFloat(ball_word[at + BALL_WORDS - 1u]);
+#endif
+    return color;
+}
 #endif
 
 // From a ball's centre to the ray's point at t, in radii.
@@ -56,7 +72,7 @@ Surface surface_at(Ray ray, REAL t)
         REAL steep = density_slope_over_v(KERNEL, u);
         gradient += q * steep * shrink * from;
         rounding += abs(part) + abs(q * steep) * sqrt(u) * (t + view_reach) * shrink;
-#ifdef COLORS
+#ifdef BLENDS
         weight += max(float(part), 0.0);
         color += max(float(part), 0.0) * color_of(ball);
 #endif
@@ -69,6 +85,9 @@ Surface surface_at(Ray ray, REAL t)
     surface.blur = NUM(0.25) * TAU * rounding / abs(slope);
     surface.normal = size > NUM(0.0) ? -gradient / size : -ray.way;
     surface.color = weight > 0.0 ? color / weight : vec4(0.0);
+#ifdef MATERIALS
+    if (color.a == weight) surface.color.a = 1.0; // whatever a driver's division makes of it
+#endif
     return surface;
 }
 

@@ -94,7 +94,7 @@ typedef struct mns_field_desc {
     double uniform_radius; /* 0: 2 x the median nearest-neighbour distance (a lone ball: 1) */
     mns_kernel kernel;
     double iso;                     /* L > 0; 0: 0.2 */
-    const mns_column_desc *columns; /* extra scalars, for colour */
+    const mns_column_desc *columns; /* extra scalars, for colours and materials */
     size_t column_count;
 } mns_field_desc;
 
@@ -276,6 +276,22 @@ typedef struct mns_mesh_info {
  * triangles, or a build that reads no meshes). */
 MNS_API mns_status mns_mesh_get_info(const char *file, mns_mesh_info *info, mns_error *error);
 
+/* A second material, into which that of the look and its effects, the first, goes over ball by ball. At every
+ * hit, of a first ray or a later one, the column `by` is blended as colours are: the mean over the balls
+ * around, weighted by their densities. Where that is range[0] or less the surface is of the first material,
+ * where it is range[1] or more of the second, and between them mirror, transmission and colour are as far on
+ * their way from the one to the other. A way inside is dimmed by the mean of what absorbs at its two ends;
+ * one that begins in the eye, or ends at a mesh, by that of its other end. There is one index of refraction.
+ * What a look says of a second material without `by` is an error. */
+typedef struct mns_blend {
+    unsigned set;    /* MNS_LOOK_COLOR, _MIRROR, _TRANSMISSION, _ABSORPTION: a 0 is meant */
+    const char *by;  /* a column of numbers; NULL or "": one material; borrowed for the call */
+    double range[2]; /* the lower first; 0, 0: 0, 1 */
+    /* As in mns_look and mns_effects; what is 0, and not in `set`, is as the first material's, of the colour
+     * that of color_by. */
+    double color[3], mirror, transmission, absorption[3];
+} mns_blend;
+
 typedef struct mns_look {
     unsigned set;
     const char
@@ -285,6 +301,7 @@ typedef struct mns_look {
     mns_effects effects;
     const mns_mesh *meshes; /* at most 256, borrowed for the call */
     size_t mesh_count;
+    mns_blend blend;
     mns_light_kind light;      /* HEAD or DIRECTIONAL */
     double light_direction[3]; /* towards the light; for DIRECTIONAL; 0,0,0: 1,2,1.5 */
     mns_shading shading;

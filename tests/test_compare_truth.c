@@ -274,6 +274,13 @@ static void two_looks_have_two_truths(void **state)
         {.effects = {.occlusion_reach = 1}},
         {.effects = {.environment = "sky"}},
         {.effects = {.seed = 1}},
+        {.blend.by = "heat"},
+        {.blend.range = {0, 2}},
+        {.blend.set = MNS_LOOK_COLOR},
+        {.blend.color = {1, 0, 0}},
+        {.blend.mirror = 0.5},
+        {.blend.transmission = 0.5},
+        {.blend.absorption = {0, 1, 0}},
     };
     enum { LOOKS = sizeof looks / sizeof *looks };
     const cache_test *c = *state;

@@ -35,6 +35,9 @@
 #define LIT          (POLY3 | FEATURE_REFERENCE | FEATURE_LIT)
 #define LIT_BY_RAYS  (FEATURE_LIT | FEATURE_RAYS)
 #define FROM_A_SIDE  .light = MNS_LIGHT_DIRECTIONAL
+#define MATERIALS    FEATURE_MATERIALS
+
+#define BLEND_HEAT(low, high) .blend.by = "heat", .blend.range = {low, high}
 
 static const mns_mesh floor_mesh = {.file = "floor.obj"};
 static const mns_light point_light = {.kind = MNS_LIGHT_POINT, .position = {1, 2, 3}},
@@ -273,6 +276,36 @@ static const scene scenes[] = {
      .passes = "build upload trace resolve solids effects shade"},
     {"no mesh", .desc = {SCENE_UNIT}, .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES,
      .left_out = "meshes: nobody asks for them"},
+    {"a second material that mirrors", .desc = {SCENE_UNIT}, TRUE_METHOD,
+     .look = {BLEND_HEAT(4, 5), .blend.mirror = 0.5}, .features = LIT | SPECULAR | FEATURE_MIRROR | MATERIALS,
+     .passes = LIT_PASSES, .left_out = "refraction: nothing goes through the surface"},
+    {"a second material of another colour: no effect", .desc = {SCENE_UNIT},
+     .look = {BLEND_HEAT(4, 5), .blend.color = {1, 0, 0}}, .features = POLY3 | CORE | LEAST | MATERIALS,
+     .passes = CORE_PASSES, .left_out = "colours of balls: one colour for all"},
+    {"a second material and a colour map, by a tree", .desc = {SCENE_UNIT}, .limits = &scene_llvmpipe,
+     .options = {.method = MNS_METHOD_FBVH},
+     .look = {BLEND_HEAT(4, 5), .blend.color = {1, 0, 0}, .color_by = "heat", .effects = {.reflections = 1}},
+     .features = POLY3 | SPECULAR | FEATURE_TEXELS | FEATURE_TREE | FEATURE_COLORS | FEATURE_MIRROR |
+                 MATERIALS | LIT_BY_RAYS,
+     .passes = "build upload trace resolve effects shade"},
+    {"a second material that lets through, and absorbs", .desc = {SCENE_UNIT}, TRUE_METHOD,
+     .look = {BLEND_HEAT(4, 5), .set = MNS_LOOK_TRANSMISSION, .effects = {.refractions = 2},
+              .blend.transmission = 0.5, .blend.absorption = {1, 0, 0}},
+     .features = LIT | SPECULAR | FEATURE_REFRACTION | FEATURE_ABSORPTION | MATERIALS, .passes = LIT_PASSES},
+    {"a second material of which no ball has any", .desc = {SCENE_UNIT},
+     .look = {BLEND_HEAT(5, 6), .blend.mirror = 0.5}, .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES,
+     .left_out = "a second material: no ball has any of it"},
+    {"a second material that is all balls'", .desc = {SCENE_UNIT},
+     .look = {BLEND_HEAT(2, 3), .color_by = "heat", .blend.color = {1, 0, 0}, .blend.set = MNS_LOOK_MIRROR,
+              .effects = {.mirror = 0.5}},
+     .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES,
+     .left_out = "a second material: it is every ball's, and so the only one"},
+    {"a second material as the first", .desc = {SCENE_UNIT},
+     .look = {BLEND_HEAT(4, 5), .blend.transmission = 0.5, .blend.absorption = {1, 1, 1}},
+     .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES,
+     .left_out = "a second material: it is seen nowhere, or as the first is"},
+    {"one material", .desc = {SCENE_UNIT}, .features = POLY3 | CORE | LEAST, .passes = CORE_PASSES,
+     .left_out = "a second material: nobody asks for it"},
     {"mirrors, all by a tree", .desc = {SCENE_UNIT}, .limits = &scene_llvmpipe,
      .options = {.method = MNS_METHOD_FBVH}, .look = {.effects = {.reflections = 2}},
      .features = POLY3 | SPECULAR | FEATURE_TEXELS | FEATURE_TREE | FEATURE_MIRROR | LIT_BY_RAYS,
@@ -398,6 +431,8 @@ static void what_is_not_there_is_left_out(void **state)
         {FEATURE_OCCLUSION, "occlusion"},
         {FEATURE_ENVIRONMENT, "an environment's map"},
         {FEATURE_SKY, "a built-in sky"},
+        {FEATURE_SOLIDS, "meshes"},
+        {FEATURE_MATERIALS, "a second material"},
     };
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         mns_field *field = scene_field(&scenes[i]);
@@ -509,6 +544,19 @@ static void wrong_effects_are_refused(void **state)
         {{.effects = {.index = 0.9}}, "index of refraction 0.9", MNS_ERROR_USAGE},
         {{.effects = {.absorption = {0, -1, 0}}}, "absorption -1", MNS_ERROR_USAGE},
         {{.effects = {.occlusion_reach = -1}}, "reach -1", MNS_ERROR_USAGE},
+        {{.blend.by = "cold"},
+         "no column \"cold\" to blend materials by; the input has heat",
+         MNS_ERROR_USAGE},
+        {{BLEND_HEAT(1, 1)}, "blend: range 1 to 1; the lower comes first", MNS_ERROR_USAGE},
+        {{BLEND_HEAT(0, INFINITY)}, "blend: range 0 to inf", MNS_ERROR_USAGE},
+        {{BLEND_HEAT(0, 1), .blend.mirror = 2}, "blend: mirror 2", MNS_ERROR_USAGE},
+        {{BLEND_HEAT(0, 1), .blend.transmission = -1}, "blend: mirror 0, transmission -1", MNS_ERROR_USAGE},
+        {{BLEND_HEAT(0, 1), .blend.absorption = {0, NAN, 0}}, "blend: absorption", MNS_ERROR_USAGE},
+        {{BLEND_HEAT(0, 1), .blend.color = {0, 0, 1.5}}, "blend: colours", MNS_ERROR_USAGE},
+        {{.blend.mirror = 0.5},
+         "no column to blend it by; name one by blend.by (--blend-by)",
+         MNS_ERROR_USAGE},
+        {{.blend.set = MNS_LOOK_COLOR}, "no column to blend it by", MNS_ERROR_USAGE},
         {{.light_count = 1}, "no array", MNS_ERROR_USAGE},
         {{.lights = two_lights, .light_count = 257}, "257 lights; at most 256", MNS_ERROR_UNSUPPORTED},
         {{.lights = &flat, .light_count = 1}, "light 0: radius 0", MNS_ERROR_USAGE},

@@ -207,6 +207,29 @@ static void wrong_lights_and_effects_are_named(void **state)
            "s.json: look: \"mud\": expected one of plain clay water molecule glass");
 }
 
+static void a_second_material_reaches_its_members(void **state)
+{
+    (void)state;
+    mns_scene *s =
+        parse("{\"blend\": {\"by\": \"heat\", \"range\": [-1, 3], \"color\": \"#000000\", \"mirror\": 0, "
+              "\"transmission\": 0.5, \"absorption\": [1, 2, 3]}}");
+    const mns_blend *b = &s->look.blend;
+    assert_string_equal(b->by, "heat");
+    assert_int_equal(b->set, MNS_LOOK_COLOR | MNS_LOOK_MIRROR | MNS_LOOK_TRANSMISSION | MNS_LOOK_ABSORPTION);
+    near3((double[]){b->range[0], b->range[1], b->transmission}, -1, 3, 0.5);
+    near3(b->absorption, 1, 2, 3);
+    assert_int_equal(s->look.set, 0);
+    mns_scene_destroy(s);
+    refuse("{\"blend\": {\"mirror\": 1}}", MNS_ERROR_INPUT,
+           "s.json: blend: an object: expected the column to blend by, under by");
+    refuse("{\"blend\": {\"by\": \"\"}}", MNS_ERROR_INPUT,
+           "s.json: blend.by: \"\": expected a string that is not empty");
+    refuse("{\"blend\": {\"by\": \"heat\", \"range\": [1, 1]}}", MNS_ERROR_INPUT,
+           "s.json: blend.range: a list: expected a list of two numbers, the lower first");
+    refuse("{\"blend\": {\"by\": \"heat\", \"index\": 1.5}}", MNS_ERROR_INPUT,
+           "s.json: blend.index: unknown key; known: by, range, color, mirror, transmission, absorption");
+}
+
 static void background_can_be_written_in_each_way(void **state)
 {
     (void)state;
@@ -253,7 +276,7 @@ static void unknown_keys_are_named_by_their_path(void **state)
     refuse("{\"colour\": 1}", MNS_ERROR_INPUT,
            "s.json: colour: unknown key; known: field, input, inputs, camera, light, lights, meshes, look, "
            "effects, "
-           "material, background, "
+           "material, blend, background, "
            "size, frame, method, solver, samples");
     refuse("{\"camera\": {\"\": 1}}", MNS_ERROR_INPUT,
            "s.json: camera.: unknown key; known: eye, look_at, up, fov");
@@ -411,6 +434,7 @@ int main(void)
         cmocka_unit_test(meshes_have_files_and_colours),
         cmocka_unit_test(effects_reach_their_members),
         cmocka_unit_test(wrong_lights_and_effects_are_named),
+        cmocka_unit_test(a_second_material_reaches_its_members),
         cmocka_unit_test(background_can_be_written_in_each_way),
         cmocka_unit_test(how_it_is_drawn_can_be_said),
         cmocka_unit_test(unknown_keys_are_named_by_their_path),

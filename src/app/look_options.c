@@ -33,7 +33,7 @@ static mns_status parse_color(const char *name, const char *text, double rgba[4]
     return app_fail(error, MNS_ERROR_USAGE, "%s: %s", name, what.text);
 }
 
-mns_status option_color(app_options *o, const char *name, const char *text, mns_error *error)
+static mns_status parse_opaque(const char *name, const char *text, double color[3], mns_error *error)
 {
     double rgba[4];
     mns_status status = parse_color(name, text, rgba, error);
@@ -41,7 +41,14 @@ mns_status option_color(app_options *o, const char *name, const char *text, mns_
     if (rgba[3] != 1)
         return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected an opaque colour, R,G,B or #rrggbb", name,
                         text);
-    memcpy(o->look.color, rgba, sizeof o->look.color);
+    memcpy(color, rgba, 3 * sizeof *color);
+    return MNS_OK;
+}
+
+mns_status option_color(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    mns_status status = parse_opaque(name, text, o->look.color, error);
+    if (status) return status;
     o->look.set |= MNS_LOOK_COLOR;
     o->look.color_by = NULL;
     return MNS_OK;
@@ -74,15 +81,20 @@ mns_status option_color_map(app_options *o, const char *name, const char *text, 
     return status;
 }
 
-mns_status option_color_range(app_options *o, const char *name, const char *text, mns_error *error)
+static mns_status parse_range(const char *name, const char *text, double range[2], mns_error *error)
 {
     static const char expected[] = "LO:HI, two numbers, the lower first";
-    o->look.set |= MNS_LOOK_RANGE;
-    o->range_is_scenes = false;
-    mns_status status = parse_numbers(name, text, ':', 2, o->look.range, expected, error);
-    if (!status && !(o->look.range[0] < o->look.range[1]))
+    mns_status status = parse_numbers(name, text, ':', 2, range, expected, error);
+    if (!status && !(range[0] < range[1]))
         return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected %s", name, text, expected);
     return status;
+}
+
+mns_status option_color_range(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->look.set |= MNS_LOOK_RANGE;
+    o->range_is_scenes = false;
+    return parse_range(name, text, o->look.range, error);
 }
 
 mns_status option_ambient(app_options *o, const char *name, const char *text, mns_error *error)
@@ -284,15 +296,19 @@ mns_status option_transmission(app_options *o, const char *name, const char *tex
     return parse_share(name, text, &o->look.effects.transmission, error);
 }
 
-mns_status option_absorption(app_options *o, const char *name, const char *text, mns_error *error)
+static mns_status parse_absorption(const char *name, const char *text, double v[3], mns_error *error)
 {
     static const char expected[] = "R,G,B, three numbers of 0 or more, a scene unit";
-    double *v = o->look.effects.absorption;
-    o->look.set |= MNS_LOOK_ABSORPTION;
     mns_status status = parse_numbers(name, text, ',', 3, v, expected, error);
     if (!status && !(v[0] >= 0 && v[1] >= 0 && v[2] >= 0))
         return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected %s", name, text, expected);
     return status;
+}
+
+mns_status option_absorption(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->look.set |= MNS_LOOK_ABSORPTION;
+    return parse_absorption(name, text, o->look.effects.absorption, error);
 }
 
 mns_status option_occlusion(app_options *o, const char *name, const char *text, mns_error *error)
@@ -322,4 +338,45 @@ mns_status option_effects_seed(app_options *o, const char *name, const char *tex
     mns_status status = parse_whole(name, text, 0, UINT32_MAX, &seed, error);
     if (!status) o->look.effects.seed = (uint32_t)seed;
     return status;
+}
+
+/* ---- The second material ---- */
+
+mns_status option_blend_by(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    if (!*text) return app_fail(error, MNS_ERROR_USAGE, "%s: expected the name of a column, or none", name);
+    if (strcmp(text, "none") == 0)
+        o->look.blend = (mns_blend){.by = NULL};
+    else
+        o->look.blend.by = text;
+    return MNS_OK;
+}
+
+mns_status option_blend_range(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    return parse_range(name, text, o->look.blend.range, error);
+}
+
+mns_status option_blend_color(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->look.blend.set |= MNS_LOOK_COLOR;
+    return parse_opaque(name, text, o->look.blend.color, error);
+}
+
+mns_status option_blend_mirror(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->look.blend.set |= MNS_LOOK_MIRROR;
+    return parse_share(name, text, &o->look.blend.mirror, error);
+}
+
+mns_status option_blend_transmission(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->look.blend.set |= MNS_LOOK_TRANSMISSION;
+    return parse_share(name, text, &o->look.blend.transmission, error);
+}
+
+mns_status option_blend_absorption(app_options *o, const char *name, const char *text, mns_error *error)
+{
+    o->look.blend.set |= MNS_LOOK_ABSORPTION;
+    return parse_absorption(name, text, o->look.blend.absorption, error);
 }

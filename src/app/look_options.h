@@ -8,7 +8,8 @@ option_apply option_shading, option_cel_bands, option_color, option_background, 
     option_color_map, option_color_range, option_ambient, option_diffuse, option_specular, option_shininess,
     option_light, option_mesh, option_look, option_shadows, option_reflections, option_refractions,
     option_mirror, option_index, option_transmission, option_absorption, option_occlusion, option_environment,
-    option_effects_seed;
+    option_effects_seed, option_blend_by, option_blend_range, option_blend_color, option_blend_mirror,
+    option_blend_transmission, option_blend_absorption;
 
 #define OPTIONS_OF_LOOK                                                                                      \
     {NULL, 0, NULL, "Look:", NULL},                                                                          \
@@ -57,8 +58,17 @@ option_apply option_shading, option_cel_bands, option_color, option_background, 
          "ambient light by N rays (reach by default a tenth of the box's diagonal)", option_occlusion},      \
         {"environment", 0, "sky|FILE", "around the scene: the built-in sky, a map (.exr, .png), or none",    \
          option_environment},                                                                                \
+        {"seed", 0, "N", "of the rays for shadows and occlusion (default 0)", option_effects_seed},          \
+        {NULL, 0, NULL, "A second material (what is not given is as the first's):", NULL},                   \
+        {"blend-by", 0, "NAME", "a column of numbers: how much of it a ball has; or none", option_blend_by}, \
+        {"blend-range", 0, "LO:HI", "values of none of it, and of nothing else (default 0:1)",               \
+         option_blend_range},                                                                                \
+        {"blend-color", 0, "COLOR", "its colour, as of --color", option_blend_color},                        \
+        {"blend-mirror", 0, "X", "the share that it mirrors", option_blend_mirror},                          \
+        {"blend-transmission", 0, "X", "of the rest, the share that goes through it",                        \
+         option_blend_transmission},                                                                         \
     {                                                                                                        \
-        "seed", 0, "N", "of the rays for shadows and occlusion (default 0)", option_effects_seed             \
+        "blend-absorption", 0, "R,G,B", "as --absorption", option_blend_absorption                           \
     }
 
 #endif

@@ -110,8 +110,20 @@ static mns_status host_set(void *context, const char *name, const char *value, m
 
 static mns_status host_open(void *context, const char *const *names, size_t count, mns_error *error)
 {
-    static const char *const of_input[] = {"frame",  "eye",      "look-at",     "up",
-                                           "radius", "color-by", "color-range", NULL};
+    static const char *const of_input[] = {"frame",
+                                           "eye",
+                                           "look-at",
+                                           "up",
+                                           "radius",
+                                           "color-by",
+                                           "color-range",
+                                           "blend-by",
+                                           "blend-range",
+                                           "blend-color",
+                                           "blend-mirror",
+                                           "blend-transmission",
+                                           "blend-absorption",
+                                           NULL};
     view_job *job = context;
     view_words words;
     mns_status status = copy(job, &words, error);

@@ -132,6 +132,27 @@ static void hash_effects(hash_state *h, const mns_effects *e)
     hash_word(h, e->seed);
 }
 
+static void hash_column(hash_state *h, const char *name, const mns_field *field)
+{
+    hash_text(h, name);
+    for (size_t i = 0; name && i < field->p.column_count; i++) {
+        const particles_column *column = &field->p.column[i];
+        if (strcmp(column->name, name)) continue;
+        hash_doubles(h, column->value, field->p.count);
+        for (size_t k = 0; column->label && k < column->label_count; k++) hash_text(h, column->label[k]);
+    }
+}
+
+static void hash_blend(hash_state *h, const mns_blend *b, const mns_field *field)
+{
+    hash_word(h, b->set);
+    hash_doubles(h, b->range, 2);
+    hash_doubles(h, b->color, 3);
+    hash_doubles(h, (double[2]){b->mirror, b->transmission}, 2);
+    hash_doubles(h, b->absorption, 3);
+    hash_column(h, b->by, field);
+}
+
 /* Member by member: what fills the gaps between them is anyone's guess. */
 static void hash_look(hash_state *h, const mns_look *look, const mns_field *field)
 {
@@ -151,13 +172,8 @@ static void hash_look(hash_state *h, const mns_look *look, const mns_field *fiel
     hash_effects(h, &look->effects);
     hash_word(h, look->mesh_count);
     for (size_t i = 0; look->meshes && i < look->mesh_count; i++) hash_mesh(h, &look->meshes[i]);
-    hash_text(h, look->color_by);
-    for (size_t i = 0; look->color_by && i < field->p.column_count; i++) {
-        const particles_column *column = &field->p.column[i];
-        if (strcmp(column->name, look->color_by)) continue;
-        hash_doubles(h, column->value, field->p.count);
-        for (size_t k = 0; column->label && k < column->label_count; k++) hash_text(h, column->label[k]);
-    }
+    hash_column(h, look->color_by, field);
+    hash_blend(h, &look->blend, field);
 }
 
 void truth_hash_field(const mns_field *field, char hash[TRUTH_HASH_SIZE])

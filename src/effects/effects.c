@@ -57,17 +57,20 @@ static void surface_take(const effects_walk *walk, vec3 way, bool within, const 
     surface->to_viewer = vec3_scale(way, -1);
     surface->at = vec3_load(answer->point);
     surface->path = path;
+    surface->weight = 0;
     if (surface->solid)
         memcpy(surface->albedo, walk->scene->solid_color[met->mesh - 1], sizeof surface->albedo);
     else
-        walk->scene->albedo(walk->scene->user, walk->scratch, answer->s, surface->albedo);
+        surface->weight = walk->scene->albedo(walk->scene->user, walk->scratch, answer->s, surface->albedo);
 }
 
-/* Dims what came `length` through the medium. */
-static void absorb(const mns_plan *plan, double length, double color[3])
+/* Dims what came `length` through the medium, of the second material by `weight`. */
+static void absorb(const mns_plan *plan, double length, double weight, double color[3])
 {
+    const mns_look *look = &plan->look;
     for (int c = 0; c < 3 && plan->features & FEATURE_ABSORPTION; c++)
-        color[c] *= exp(-plan->look.effects.absorption[c] * length);
+        color[c] *=
+            exp(-effects_between(look->effects.absorption[c], look->blend.absorption[c], weight) * length);
 }
 
 static void surface_color(effects_walk *walk, const effects_surface *surface, const allowance *left,
@@ -90,28 +93,33 @@ static double ray_color(effects_walk *walk, const effects_surface *from, vec3 wa
     }
     surface_take(walk, way, effects_inwards(from, way), &met, path, &surface);
     allowance rest = *left;
-    if (surface.inside) absorb(walk->scene->plan, hit->t, rest.share);
+    double weight = surface.solid ? from->weight : 0.5 * (from->weight + surface.weight);
+    if (surface.inside) absorb(walk->scene->plan, hit->t, weight, rest.share);
     surface_color(walk, &surface, &rest, false, color);
-    if (surface.inside) absorb(walk->scene->plan, hit->t, color);
+    if (surface.inside) absorb(walk->scene->plan, hit->t, weight, color);
     return hit->t;
 }
 
 /* What a surface does to the light: shares, and how its rays are bent. */
 typedef struct optics {
-    double cosine, ratio, mirrored;
+    double cosine, ratio, mirrored, transmission;
     bool total; /* reflection */
 } optics;
 
 static optics optics_of(const mns_plan *plan, const effects_surface *surface)
 {
     const mns_effects *e = &plan->look.effects;
-    optics o = {
-        .cosine = fmin(vec3_dot(surface->normal, surface->to_viewer), 1), .ratio = 1, .mirrored = e->mirror};
-    if (surface->solid) o.mirrored = 0;
+    const mns_blend *second = &plan->look.blend;
+    double mirror = effects_between(e->mirror, second->mirror, surface->weight);
+    optics o = {.cosine = fmin(vec3_dot(surface->normal, surface->to_viewer), 1),
+                .ratio = 1,
+                .mirrored = mirror,
+                .transmission = effects_between(e->transmission, second->transmission, surface->weight)};
+    if (surface->solid) o.mirrored = o.transmission = 0;
     if (surface->solid || !(plan->features & FEATURE_FRESNEL)) return o;
     o.ratio = surface->inside ? 1 / e->index : e->index;
     o.total = optics_beyond(o.ratio, o.cosine) <= 0;
-    o.mirrored += (1 - e->mirror) * optics_fresnel(o.ratio, o.cosine);
+    o.mirrored += (1 - mirror) * optics_fresnel(o.ratio, o.cosine);
     if (o.total) o.mirrored = 1;
     return o;
 }
@@ -153,8 +161,7 @@ static void surface_color(effects_walk *walk, const effects_surface *surface, co
 {
     const mns_plan *plan = walk->scene->plan;
     optics o = optics_of(plan, surface);
-    double transmission = surface->solid ? 0 : plan->look.effects.transmission;
-    double passes = transmission * (1 - o.mirrored), shaded = (1 - transmission) * (1 - o.mirrored);
+    double passes = o.transmission * (1 - o.mirrored), shaded = (1 - o.transmission) * (1 - o.mirrored);
     double mirror = INFINITY, refracted = INFINITY;
     effects_lit lit;
     effects_light(walk, surface, shaded > 0, &lit);
@@ -202,9 +209,9 @@ bool effects_shade(const effects_scene *scene, reference_scratch *scratch, vec3 
         return true;
     }
     surface_take(&walk, way, begins_within(scene, way), first, 1, &surface);
-    if (surface.inside) absorb(plan, hit->t, all.share);
+    if (surface.inside) absorb(plan, hit->t, surface.weight, all.share);
     surface_color(&walk, &surface, &all, true, pixel->color);
-    if (surface.inside) absorb(plan, hit->t, pixel->color);
+    if (surface.inside) absorb(plan, hit->t, surface.weight, pixel->color);
     pixel->color[3] = 1;
     return !walk.failed;
 }

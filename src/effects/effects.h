@@ -6,8 +6,15 @@
 #include "effects/environment.h"
 #include "effects/meet.h"
 
-/* The linear colour of the surface where a ray met it, whose chords are still in the scratch. */
-typedef void effects_albedo(const void *user, const reference_scratch *scratch, double s, double color[3]);
+/* The linear colour of the surface where a ray met it, whose chords are still in the scratch. Returns how
+ * much of the second material it has (MATERIALS). */
+typedef double effects_albedo(const void *user, const reference_scratch *scratch, double s, double color[3]);
+
+/* So far from the first material's to the second's; at the ends exactly theirs. */
+static inline double effects_between(double first, double second, double weight)
+{
+    return weight >= 1 ? second : first + weight * (second - first);
+}
 
 /* The same for all pixels, and for all threads. */
 typedef struct effects_scene {

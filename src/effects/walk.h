@@ -17,6 +17,7 @@ typedef struct effects_surface {
     bool inside;                /* the viewer is in the medium */
     bool solid;                 /* of a mesh: all that leaves it stays on the viewer's side */
     double albedo[3];
+    double weight; /* of the second material; of a mesh none */
     uint32_t path; /* its number on the way (glsl/samples.glsl) */
 } effects_surface;
 

@@ -75,5 +75,5 @@ void list_pack_colors(const list_order *order, list_chosen chosen, const mns_fie
     ball_colors colors = ball_colors_of(field, plan);
 #pragma omp parallel for if (order->in_view > ORDER_ALONE)
     for (size_t i = 0; i < chosen.count; i++)
-        ((uint32_t *)out)[i] = ball_colors_word(&colors, ball_at(order, chosen, i)->index);
+        ball_colors_put(&colors, ball_at(order, chosen, i)->index, (uint32_t *)out + i * colors.words);
 }

@@ -20,7 +20,7 @@ void list_pack_low(const list_order *order, list_chosen chosen, const mns_field 
                    float *out);
 /* Core radii (CORE_RADII): R k^-1(L / q), 0 where q <= L. */
 void list_pack_cores(const list_order *order, const mns_field *field, float *out);
-/* Colours (COLORS): a value each as float, or an rgba8 each with LABELS. */
+/* Colours and materials (BLENDS): the words of shade/ball_colors.h. */
 void list_pack_colors(const list_order *order, list_chosen chosen, const mns_field *field,
                       const mns_plan *plan, void *out);
 

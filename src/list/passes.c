@@ -279,7 +279,7 @@ void list_clear_planes(list_passes *p, gl_device *device, const mns_plan *plan, 
     const GladGLContext *gl = &device->gl;
     gl->BindFramebuffer(GL_FRAMEBUFFER, target);
     scissor(device, p, region);
-    for (int i = 0; i < (plan->features & FEATURE_COLORS ? 3 : 2); i++)
+    for (int i = 0; i < (plan->features & FEATURE_BLENDS ? 3 : 2); i++)
         gl->ClearBufferfv(GL_COLOR, i, miss[i]);
 }
 
@@ -346,7 +346,7 @@ void list_resolve(list_passes *p, gl_device *device, const mns_plan *plan, GLuin
     if (wide) gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, p->balls_low.id);
     gl->BindImageTexture(1, plane[0], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
     gl->BindImageTexture(2, plane[1], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA32F);
-    if (plane[2]) gl->BindImageTexture(3, plane[2], 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+    if (plane[2]) gl->BindImageTexture(3, plane[2], 0, GL_FALSE, 0, GL_WRITE_ONLY, list_color_format(plan));
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     do {
         dispatch_resolve(p, device, counts);

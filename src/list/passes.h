@@ -34,6 +34,13 @@ typedef struct list_passes {
     size_t redo_capacity; /* pixels of a region at most */
 } list_passes;
 
+/* How the plane of what is blended of the balls is stored. Halves do for colours; which ray is worth its cost
+ * hangs on a material's shares, and so on their last digits. */
+static inline GLenum list_color_format(const mns_plan *plan)
+{
+    return plan->features & FEATURE_MATERIALS ? GL_RGBA32F : GL_RGBA16F;
+}
+
 /* Makes or resizes what the plan needs, and no more. Errors: MEMORY, GL. */
 mns_status list_passes_prepare(list_passes *p, gl_device *device, const mns_plan *plan, mns_error *error);
 void list_passes_free(list_passes *p, gl_device *device);

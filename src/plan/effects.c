@@ -194,8 +194,10 @@ static void fill_effects(mns_look *look, const mns_field *field)
 static bool is_shaded(const mns_plan *plan)
 {
     const mns_effects *e = &plan->look.effects;
+    const mns_blend *b = &plan->look.blend;
     if (plan->features & FEATURE_SOLIDS) return true;
-    return e->mirror < 1 && !(plan->features & FEATURE_REFRACTION && e->transmission == 1);
+    return fmin(e->mirror, b->mirror) < 1 &&
+           !(plan->features & FEATURE_REFRACTION && e->transmission == 1 && b->transmission == 1);
 }
 
 static bool has_light(const mns_plan *plan, mns_light_kind kind)
@@ -233,12 +235,15 @@ static void find_lights(mns_plan *plan)
 static void find_effects(mns_plan *plan)
 {
     mns_effects *e = &plan->look.effects;
+    mns_blend *b = &plan->look.blend; /* as the effects, where there is one material */
     if (e->index > 1) plan->features |= FEATURE_FRESNEL | FEATURE_MIRROR;
-    if (e->mirror > 0) plan->features |= FEATURE_MIRROR;
+    if (e->mirror > 0 || b->mirror > 0) plan->features |= FEATURE_MIRROR;
     if (!(plan->features & FEATURE_MIRROR)) e->reflections = 0;
-    if (e->refractions && e->transmission > 0 && e->mirror < 1) plan->features |= FEATURE_REFRACTION;
-    if (!(plan->features & FEATURE_REFRACTION)) e->refractions = 0, e->transmission = 0;
-    bool absorbs = e->absorption[0] > 0 || e->absorption[1] > 0 || e->absorption[2] > 0;
+    bool passes = fmax(e->transmission, b->transmission) > 0 && fmin(e->mirror, b->mirror) < 1;
+    if (e->refractions && passes) plan->features |= FEATURE_REFRACTION;
+    if (!(plan->features & FEATURE_REFRACTION)) e->refractions = 0, e->transmission = b->transmission = 0;
+    bool absorbs = false;
+    for (int c = 0; c < 3; c++) absorbs = absorbs || e->absorption[c] > 0 || b->absorption[c] > 0;
     if (absorbs && plan->features & FEATURE_REFRACTION) plan->features |= FEATURE_ABSORPTION;
     if (e->occlusion_rays && plan->look.ambient > 0 && is_shaded(plan)) plan->features |= FEATURE_OCCLUSION;
     if (!e->shadows || !casts(plan) || !is_lit_by_lights(plan)) return;
@@ -258,8 +263,11 @@ mns_status plan_effects(mns_plan *plan, const mns_field *field, mns_error *error
     if (!status) status = take_meshes(plan, error);
     if (status) return status;
     fill_effects(&plan->look, field);
+    status = plan_blend(plan, field, error);
+    if (status) return status;
     find_lights(plan);
     find_effects(plan);
+    if (plan_blend_is_seen(plan)) plan->features |= FEATURE_MATERIALS;
     if (plan->features & lit) plan->features |= FEATURE_LIT;
     return MNS_OK;
 }
@@ -304,6 +312,7 @@ void plan_effects_left_out(mns_plan *plan)
         {FEATURE_REFRACTION, "refraction", "nothing goes through the surface"},
         {FEATURE_ABSORPTION, "absorption", no_absorption(plan)},
         {FEATURE_OCCLUSION, "occlusion", no_occlusion(plan)},
+        {FEATURE_MATERIALS, "a second material", plan->no_blend},
         {FEATURE_ENVIRONMENT, "an environment's map",
          sky ? "the sky is built in" : "the background has one colour"},
         {FEATURE_SOLIDS, "meshes", unasked},

@@ -14,7 +14,7 @@ static const char *const feature_names[FEATURE_COUNT] = {
     [33] = "lights",     [34] = "point_lights", [35] = "shadows",    [36] = "soft_shadows",
     [37] = "mirror",     [38] = "fresnel",      [39] = "refraction", [40] = "absorption",
     [41] = "occlusion",  [42] = "environment",  [43] = "sky",        [44] = "rays",
-    [45] = "squares",    [46] = "solids",
+    [45] = "squares",    [46] = "solids",       [47] = "materials",
 };
 
 /* The numbers of the effects that are there. */
@@ -40,6 +40,20 @@ static void print_effects(FILE *out, const mns_plan *plan)
     if (f & FEATURE_ENVIRONMENT) fprintf(out, ", environment %s", plan->environment);
     for (size_t i = 0; i < plan->look.mesh_count; i++) fprintf(out, ", mesh %s", plan->mesh[i].file);
     fprintf(out, ", seed %lu", (unsigned long)e->seed);
+}
+
+static void print_blend(FILE *out, const mns_plan *plan)
+{
+    const mns_blend *b = &plan->look.blend;
+    uint64_t f = plan->features;
+    if (!(f & FEATURE_MATERIALS)) return;
+    fprintf(out, "\nsecond material: by %s from %g to %g", plan->blend_by, b->range[0], b->range[1]);
+    if (b->set & MNS_LOOK_COLOR) fprintf(out, ", color %g,%g,%g", b->color[0], b->color[1], b->color[2]);
+    if (f & FEATURE_MIRROR) fprintf(out, ", mirror %g", b->mirror);
+    if (f & FEATURE_REFRACTION) fprintf(out, ", transmission %g", b->transmission);
+    if (f & FEATURE_ABSORPTION)
+        fprintf(out, ", absorption %g,%g,%g", b->absorption[0] / plan->unit, b->absorption[1] / plan->unit,
+                b->absorption[2] / plan->unit);
 }
 
 static void print_plan(FILE *out, const mns_plan *plan, const mns_field *field)
@@ -74,6 +88,7 @@ static void print_plan(FILE *out, const mns_plan *plan, const mns_field *field)
     fprintf(out, "\npasses:");
     for (size_t i = 0; i < plan->pass_count; i++) fprintf(out, " %s", plan->pass[i]);
     print_effects(out, plan);
+    print_blend(out, plan);
     if (plan->domain.count) fprintf(out, "\nwarnings, outside the stated domain:");
     for (size_t i = 0; i < plan->domain.count; i++) fprintf(out, "\n  %s", plan->domain.line[i]);
     fprintf(out, "\nleft out:\n");

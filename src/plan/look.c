@@ -43,29 +43,38 @@ static void resolve_defaults(mns_look *look)
     if (look->cel_bands == 0) look->cel_bands = 3;
 }
 
+mns_status plan_find_column(const mns_field *field, const char *name, const char *purpose, size_t *index,
+                            mns_error *error)
+{
+    char known[200] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < field->p.column_count; i++) {
+        if (strcmp(field->p.column[i].name, name) == 0) {
+            *index = i;
+            return MNS_OK;
+        }
+        if (used + 40 < sizeof known)
+            used += (size_t)snprintf(known + used, sizeof known - used, "%s%.32s", i ? ", " : "",
+                                     field->p.column[i].name);
+    }
+    return status_fail(error, MNS_ERROR_USAGE, "look: no column \"%s\" to %s by; the input has %s", name,
+                       purpose, field->p.column_count ? known : "none");
+}
+
 /* The column to colour by: `color_by` is its name; "element" also finds a PDB's or XYZ's element column. */
 static mns_status find_column(mns_plan *plan, const mns_field *field, mns_error *error)
 {
     const mns_look *look = &plan->look;
-    for (size_t i = 0; i < field->p.column_count; i++) {
-        const particles_column *column = &field->p.column[i];
-        if (strcmp(column->name, look->color_by) != 0) continue;
-        plan->features |= FEATURE_COLORS | (column->label ? FEATURE_LABELS : 0);
-        plan->color_column = i;
-        plan->color_range[0] = look->set & MNS_LOOK_RANGE ? look->range[0] : column->min;
-        plan->color_range[1] = look->set & MNS_LOOK_RANGE ? look->range[1] : column->max;
-        snprintf(plan->color_by, sizeof plan->color_by, "%s", column->name);
-        if (!isfinite(plan->color_range[0]) || !isfinite(plan->color_range[1]))
-            return status_fail(error, MNS_ERROR_USAGE, "look: the colour range must be finite");
-        return MNS_OK;
-    }
-    char known[200] = "";
-    size_t used = 0;
-    for (size_t i = 0; i < field->p.column_count && used + 40 < sizeof known; i++)
-        used += (size_t)snprintf(known + used, sizeof known - used, "%s%.32s", i ? ", " : "",
-                                 field->p.column[i].name);
-    return status_fail(error, MNS_ERROR_USAGE, "look: no column \"%s\" to colour by; the input has %s",
-                       look->color_by, field->p.column_count ? known : "none");
+    mns_status status = plan_find_column(field, look->color_by, "colour", &plan->color_column, error);
+    if (status) return status;
+    const particles_column *column = &field->p.column[plan->color_column];
+    plan->features |= FEATURE_COLORS | (column->label ? FEATURE_LABELS : 0);
+    plan->color_range[0] = look->set & MNS_LOOK_RANGE ? look->range[0] : column->min;
+    plan->color_range[1] = look->set & MNS_LOOK_RANGE ? look->range[1] : column->max;
+    snprintf(plan->color_by, sizeof plan->color_by, "%s", column->name);
+    if (!isfinite(plan->color_range[0]) || !isfinite(plan->color_range[1]))
+        return status_fail(error, MNS_ERROR_USAGE, "look: the colour range must be finite");
+    return MNS_OK;
 }
 
 mns_status plan_look(const mns_look *look, const mns_field *field, mns_plan *plan, mns_error *error)

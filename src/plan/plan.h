@@ -53,7 +53,11 @@
 #define FEATURE_RAYS         (UINT64_C(1) << 44) /* some rays beyond the first are traced, on the GPU */
 #define FEATURE_SQUARES      (UINT64_C(1) << 45) /* only squares of pixels that hold listed tiles are cast */
 #define FEATURE_SOLIDS       (UINT64_C(1) << 46) /* meshes stand beside the surface */
-enum { FEATURE_COUNT = 47 };
+#define FEATURE_MATERIALS    (UINT64_C(1) << 47) /* a column blends two materials */
+enum { FEATURE_COUNT = 48 };
+
+/* Something of the balls is blended into a plane of the first hits, and into every other hit. */
+#define FEATURE_BLENDS (FEATURE_COLORS | FEATURE_MATERIALS)
 
 enum { PLAN_MOST = 16 }; /* passes; parts left out are at most PLAN_PARTS */
 enum { PLAN_PARTS = 40 };
@@ -96,6 +100,9 @@ struct mns_plan {
     mns_mesh *mesh;      /* the plan's own, look.mesh_count of them; their file names are its own too */
     size_t color_column; /* where COLORS */
     double color_range[2];
+    size_t blend_column; /* where MATERIALS; the second material is look.blend, of which nothing is open, */
+    char blend_by[64];
+    const char *no_blend;  /* or why there is none: a literal */
     size_t ball_floats;    /* a ball in the GPU's buffer */
     size_t pool_nodes;     /* to begin with */
     size_t pool_most;      /* allowed */
@@ -121,6 +128,16 @@ mns_status plan_look(const mns_look *look, const mns_field *field, mns_plan *pla
 /* Checks the lights and effects of a look, fills their defaults, copies what was borrowed, and finds which of
  * them do anything. Errors: USAGE, MEMORY, UNSUPPORTED. */
 mns_status plan_effects(mns_plan *plan, const mns_field *field, mns_error *error);
+/* Checks the look's second material and fills it in from the first, whose defaults are there; where every
+ * ball is of the second that becomes the first, and there is no other. Errors: USAGE. */
+mns_status plan_blend(mns_plan *plan, const mns_field *field, mns_error *error);
+/* Whether the two differ in anything that is seen. */
+bool plan_blend_is_seen(const mns_plan *plan);
+/* Where a ball stands between the first material, 0, and the second, 1; it may be beyond them (MATERIALS). */
+double plan_blend_place(const mns_plan *plan, const mns_field *field, size_t ball);
+/* Finds a column by its name; `purpose` is what it was wanted for. Errors: USAGE. */
+mns_status plan_find_column(const mns_field *field, const char *name, const char *purpose, size_t *index,
+                            mns_error *error);
 /* What of the effects is left out, and why. */
 void plan_effects_left_out(mns_plan *plan);
 /* Of a frame drawn on the GPU: whether rays beyond the first are traced there, and of a list's frame the tree

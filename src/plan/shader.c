@@ -13,13 +13,13 @@ typedef struct shader_part {
 #define READS_BALL (FEATURE_KERNEL | FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_FAR)
 #define READS_RAY                                                                                            \
     (READS_BALL | FEATURE_SOLVER | FEATURE_EYE_IN_BALL | FEATURE_EYE_INSIDE | FEATURE_EYE_ON |               \
-     FEATURE_HOST | FEATURE_COLORS | FEATURE_LABELS | FEATURE_TEXELS | FEATURE_TILES)
+     FEATURE_HOST | FEATURE_BLENDS | FEATURE_LABELS | FEATURE_TEXELS | FEATURE_TILES)
 #define READS_TREE ((READS_RAY | FEATURE_OVERLAPS) & ~(FEATURE_SOLVER | FEATURE_TEXELS | FEATURE_TILES))
 #define READS_PATH                                                                                           \
     (FEATURE_KERNEL | FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_OVERLAPS | FEATURE_TEXELS |                \
      FEATURE_EYE_INSIDE | FEATURE_EYE_ON)
 #define READS_LIT                                                                                            \
-    (FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_SPECULAR | FEATURE_MIRROR | FEATURE_FRESNEL |   \
+    (FEATURE_BLENDS | FEATURE_LABELS | FEATURE_CEL | FEATURE_SPECULAR | FEATURE_MIRROR | FEATURE_FRESNEL |   \
      FEATURE_ENVIRONMENT | FEATURE_SKY | FEATURE_SOLIDS)
 #define READS_WALK                                                                                           \
     (READS_LIT | FEATURE_SHADOWS | FEATURE_SOFT_SHADOWS | FEATURE_REFRACTION | FEATURE_ABSORPTION |          \
@@ -56,7 +56,7 @@ static const shader_part parts[SHADER_COUNT] = {
     [SHADER_EFFECTS_RESOLVE] = {NULL, NULL, "effects_resolve.glsl",
                                 (READS_WALK | READS_PATH) & ~(uint64_t)FEATURE_TEXELS},
     [SHADER_SHADE] = {"screen.vert.glsl", "shade.frag.glsl", NULL,
-                      FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_DIRECTIONAL | FEATURE_SPECULAR |
+                      FEATURE_BLENDS | FEATURE_LABELS | FEATURE_CEL | FEATURE_DIRECTIONAL | FEATURE_SPECULAR |
                           FEATURE_LIT},
     [SHADER_HOST_DEPTH] = {"screen.vert.glsl", "host_depth.frag.glsl", NULL, FEATURE_FAR},
     [SHADER_HOST_DRAW] = {"screen.vert.glsl", "host_draw.frag.glsl", NULL, 0},
@@ -112,6 +112,8 @@ static void add_features(char *defines, uint64_t f)
         {FEATURE_SKY, "SKY"},
         {FEATURE_RAYS, "RAYS"},
         {FEATURE_SOLIDS, "SOLIDS"},
+        {FEATURE_MATERIALS, "MATERIALS"},
+        {FEATURE_BLENDS, "BLENDS"},
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (f & names[i].bit) add(defines, names[i].name, 1);

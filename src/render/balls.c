@@ -2,13 +2,14 @@
 #include "render/draw.h"
 
 #include "list/pack.h"
+#include "shade/ball_colors.h"
 
 #include <string.h>
 
 /* Features that change which balls are sent, how they are ordered and what is sent of each. */
 #define BALL_FEATURES                                                                                        \
     (FEATURE_RADII | FEATURE_STRENGTHS | FEATURE_CORE_RADII | FEATURE_POINTS | FEATURE_QUADS | FEATURE_FAR | \
-     FEATURE_COLORS | FEATURE_LABELS | FEATURE_TILES)
+     FEATURE_TILES)
 /* And, among tiles, what drops hidden balls from the order: samples beside the centre may see them. */
 #define TILE_FEATURES (BALL_FEATURES | FEATURE_SAMPLES)
 
@@ -17,16 +18,30 @@ static uint64_t ball_features(const mns_plan *plan)
     return plan->features & (plan->features & FEATURE_TILES ? TILE_FEATURES : BALL_FEATURES);
 }
 
+render_colors draw_colors_of(const mns_plan *plan)
+{
+    render_colors colors = {.features = plan->features & (FEATURE_BLENDS | FEATURE_LABELS)};
+    if (plan->features & FEATURE_COLORS) {
+        colors.column = plan->color_column;
+        memcpy(colors.range, plan->color_range, sizeof colors.range);
+    }
+    if (plan->features & FEATURE_MATERIALS) {
+        colors.blend_column = plan->blend_column;
+        memcpy(colors.blend_range, plan->look.blend.range, sizeof colors.blend_range);
+    }
+    return colors;
+}
+
 static bool same_balls(const draw *d)
 {
     const render_last *last = &d->r->last;
     const mns_plan *plan = d->plan;
+    const render_colors colors = draw_colors_of(plan);
     return !plan->options.moved && last->field == d->field && last->stamp == d->field->stamp &&
            last->features == ball_features(plan) &&
            memcmp(&last->frame, &plan->frame, sizeof plan->frame) == 0 &&
            memcmp(last->origin, plan->origin, sizeof last->origin) == 0 &&
-           last->color_column == plan->color_column &&
-           memcmp(last->color_range, plan->color_range, sizeof last->color_range) == 0;
+           memcmp(&last->colors, &colors, sizeof colors) == 0;
 }
 
 static void remember(draw *d)
@@ -36,8 +51,7 @@ static void remember(draw *d)
     *last = (render_last){
         .field = d->field, .stamp = d->field->stamp, .features = ball_features(plan), .frame = plan->frame};
     memcpy(last->origin, plan->origin, sizeof last->origin);
-    last->color_column = plan->color_column;
-    memcpy(last->color_range, plan->color_range, sizeof last->color_range);
+    last->colors = draw_colors_of(plan);
 }
 
 /* What is sent of each ball. */
@@ -99,8 +113,8 @@ mns_status draw_balls_send(draw *d, mns_error *error)
     d->r->last.low = false;
     mns_status status = upload(d, &p->balls, "balls", d->plan->ball_floats, PART_HIGH, error);
     if (!status && cores) status = upload(d, &p->cores, "core radii", 1, PART_CORES, error);
-    if (!status && d->plan->features & FEATURE_COLORS)
-        status = upload(d, &p->colors, "colours", 1, PART_COLORS, error);
+    if (!status && d->plan->features & FEATURE_BLENDS)
+        status = upload(d, &p->colors, "colours", ball_colors_words(d->plan), PART_COLORS, error);
     return status;
 }
 

@@ -9,7 +9,7 @@
 /* What a draw by the reference keeps from sample to sample; rows run from the bottom, as GL's. */
 typedef struct draw_tracer {
     mns_reference *reference;
-    float *t, *normal, *color; /* 2, 4 and 4 floats a pixel; color only with COLORS */
+    float *t, *normal, *color; /* 2, 4 and 4 floats a pixel; color only with BLENDS */
     float (*label)[3];         /* linear colours of the column's labels (LABELS) */
     struct effects_scene *effects;
     float *lit, *terms, *settled; /* 4, 4 and 1 floats a pixel, with LIT: see mns_frame */
@@ -38,7 +38,9 @@ void draw_mark(draw *d, mns_phase phase);
 void draw_pause(draw *d);
 void draw_send(draw *d, gl_buffer *buffer, const void *data, size_t size);
 
-/* balls.c: sorts the balls in view, and uploads them but for tiles, unless they are there already. Errors:
+/* balls.c: what colours and materials of balls are sent by. */
+render_colors draw_colors_of(const mns_plan *plan);
+/* Sorts the balls in view, and uploads them but for tiles, unless they are there already. Errors:
  * MEMORY, UNSUPPORTED.
  */
 mns_status draw_balls_upload(draw *d, mns_error *error);

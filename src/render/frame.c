@@ -66,7 +66,7 @@ mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
 {
     gl_device *device = &f->renderer->device;
     const GladGLContext *gl = &device->gl;
-    bool color = plan->features & FEATURE_COLORS;
+    GLenum color = plan->features & FEATURE_BLENDS ? list_color_format(plan) : 0;
     int width = plan->frame.width, height = plan->frame.height;
     free(f->t_error);
     f->t_error = NULL;
@@ -79,11 +79,11 @@ mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
     f->has_work = work;
     if (same && work && !f->work) f->work = plane_make(gl, GL_RGBA32F, width, height);
     bool lit = plan->features & FEATURE_LIT, mesh = plan->features & FEATURE_SOLIDS;
-    if (same && f->has_color == color && f->has_lit == lit && f->has_mesh == mesh) return MNS_OK;
+    if (same && f->color_format == color && f->has_lit == lit && f->has_mesh == mesh) return MNS_OK;
     drop_textures(f);
     f->t = plane_make(gl, GL_RG32F, width, height);
     f->normal = plane_make(gl, GL_RGBA32F, width, height);
-    if (color) f->color = plane_make(gl, GL_RGBA16F, width, height);
+    if (color) f->color = plane_make(gl, color, width, height);
     f->shaded = plane_make(gl, GL_RGBA32F, width, height);
     if (work) f->work = plane_make(gl, GL_RGBA32F, width, height);
     if (lit) {
@@ -99,7 +99,7 @@ mns_status frame_prepare(mns_frame *f, const mns_plan *plan, mns_error *error)
     f->shaded_target = target_make(gl, &f->shaded, 1);
     f->width = width;
     f->height = height;
-    f->has_color = color;
+    f->color_format = color;
     f->has_lit = lit;
     f->has_mesh = mesh;
     mns_status status = gl_check(device, "frame", error);

@@ -26,26 +26,34 @@ static mns_status make_labels(draw *d, mns_error *error)
     return MNS_OK;
 }
 
+/* Adds a ball's colour, and its place between two materials, times its density. */
+static void add_ball(const draw *d, size_t ball, double part, double sum[4])
+{
+    const mns_plan *plan = d->plan;
+    double low = plan->color_range[0], span = plan->color_range[1] - low;
+    if (plan->features & FEATURE_MATERIALS) sum[3] += part * plan_blend_place(plan, d->field, ball);
+    if (!(plan->features & FEATURE_COLORS)) return;
+    double value = d->field->p.column[plan->color_column].value[ball];
+    if (!(plan->features & FEATURE_LABELS)) {
+        sum[0] += part * (span != 0 ? (value - low) / span : 0.5);
+        return;
+    }
+    for (int c = 0; c < 3; c++) sum[c] += part * (double)d->tracer.label[(size_t)value][c];
+}
+
 /* As glsl/surface.glsl blends: the mean over the balls around, by their densities where those are positive.
  */
 static void blend(const draw *d, const reference_scratch *scratch, double s, float color[4])
 {
-    const mns_plan *plan = d->plan;
-    const particles_column *column = &d->field->p.column[plan->color_column];
-    double sum[3] = {0, 0, 0}, weight = 0, low = plan->color_range[0], span = plan->color_range[1] - low;
+    double sum[4] = {0, 0, 0, 0}, weight = 0;
     for (size_t i = 0; i < scratch->chord_count; i++) {
         double part = reference_share(&scratch->chord[i], d->field->kernel, s);
         if (!(part > 0)) continue;
-        double value = column->value[scratch->chord[i].ball];
         weight += part;
-        if (!(plan->features & FEATURE_LABELS)) {
-            sum[0] += part * (span != 0 ? (value - low) / span : 0.5);
-            continue;
-        }
-        for (int c = 0; c < 3; c++) sum[c] += part * (double)d->tracer.label[(size_t)value][c];
+        add_ball(d, scratch->chord[i].ball, part, sum);
     }
-    for (int c = 0; c < 3; c++) color[c] = weight > 0 ? (float)(sum[c] / weight) : 0;
-    color[3] = weight > 0 ? 1 : 0;
+    for (int c = 0; c < 4; c++) color[c] = weight > 0 ? (float)(sum[c] / weight) : 0;
+    if (!(d->plan->features & FEATURE_MATERIALS)) color[3] = weight > 0 ? 1 : 0;
 }
 
 /* The linear colour that glsl/shade.frag.glsl makes of a place on the colour map. */
@@ -61,20 +69,29 @@ static void map_color(mns_color_map map, double place, double color[3])
     }
 }
 
-static void surface_albedo(const void *user, const reference_scratch *scratch, double s, double color[3])
+static void first_color(const mns_plan *plan, const float blended[4], double color[3])
+{
+    if (!(plan->features & FEATURE_COLORS))
+        for (int c = 0; c < 3; c++) color[c] = (double)shade_linear(plan->look.color[c]);
+    else if (plan->features & FEATURE_LABELS)
+        for (int c = 0; c < 3; c++) color[c] = (double)blended[c];
+    else
+        map_color(plan->look.color_map, (double)blended[0], color);
+}
+
+static double surface_albedo(const void *user, const reference_scratch *scratch, double s, double color[3])
 {
     const draw *d = user;
-    float blended[4];
-    if (!(d->plan->features & FEATURE_COLORS)) {
-        for (int c = 0; c < 3; c++) color[c] = (double)shade_linear(d->plan->look.color[c]);
-        return;
-    }
-    blend(d, scratch, s, blended);
-    if (!(d->plan->features & FEATURE_LABELS)) {
-        map_color(d->plan->look.color_map, (double)blended[0], color);
-        return;
-    }
-    for (int c = 0; c < 3; c++) color[c] = (double)blended[c];
+    const mns_plan *plan = d->plan;
+    float blended[4] = {0, 0, 0, 0};
+    if (plan->features & FEATURE_BLENDS) blend(d, scratch, s, blended);
+    first_color(plan, blended, color);
+    if (!(plan->features & FEATURE_MATERIALS)) return 0;
+    const mns_blend *second = &plan->look.blend;
+    double weight = fmin(fmax((double)blended[3], 0), 1);
+    for (int c = 0; c < 3 && second->set & MNS_LOOK_COLOR; c++)
+        color[c] = effects_between(color[c], (double)shade_linear(second->color[c]), weight);
+    return weight;
 }
 
 /* ---- Pixels ---- */
@@ -135,7 +152,7 @@ static bool first_hit(const draw *d, reference_scratch *scratch, vec3 way, effec
 static bool trace_row(draw *d, reference_scratch *scratch, int y, const double jitter[2], row_counts *counts)
 {
     const view_frame *frame = &d->plan->frame;
-    bool lit = d->plan->features & FEATURE_LIT, colors = d->plan->features & FEATURE_COLORS && !lit;
+    bool lit = d->plan->features & FEATURE_LIT, colors = d->plan->features & FEATURE_BLENDS && !lit;
     size_t width = (size_t)frame->width, from_top = (size_t)(frame->height - 1 - y);
     for (size_t x = 0; x < width; x++) {
         size_t at = (size_t)y * width + x;
@@ -186,7 +203,7 @@ mns_status draw_reference_begin(draw *d, mns_error *error)
     tracer->t = memory_array(pixels, 2 * sizeof(float));
     tracer->normal = memory_array(pixels, 4 * sizeof(float));
     if (!tracer->t || !tracer->normal) return status_no_memory(error, "while tracing a frame");
-    if (d->plan->features & FEATURE_COLORS) {
+    if (d->plan->features & FEATURE_BLENDS) {
         tracer->color = memory_array(pixels, 4 * sizeof(float));
         if (!tracer->color) return status_no_memory(error, "while tracing a frame");
         if (d->plan->features & FEATURE_LABELS) status = make_labels(d, error);

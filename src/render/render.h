@@ -8,6 +8,13 @@
 #include "tile/tile.h"
 #include "trace/passes.h"
 
+/* What colours and materials of balls were sent by; 0 what does not matter. */
+typedef struct render_colors {
+    uint64_t features;
+    size_t column, blend_column;
+    double range[2], blend_range[2];
+} render_colors;
+
 /* What the sorted and uploaded balls were made from: the same again, and nothing is sorted or uploaded. */
 typedef struct render_last {
     const mns_field *field;
@@ -15,8 +22,7 @@ typedef struct render_last {
     uint64_t features;
     view_frame frame;
     double origin[3];
-    size_t color_column;
-    double color_range[2];
+    render_colors colors;
     bool low; /* the low words are there too */
 } render_last;
 
@@ -26,10 +32,8 @@ typedef struct render_tree {
     uint64_t stamp;
     uint64_t features; /* that change what is sent of a ball */
     fbvh_options options;
-    bool colored; /* colours are there, of: */
-    uint64_t labels;
-    size_t color_column;
-    double color_range[2];
+    bool colored; /* colours are there: */
+    render_colors colors;
     bool low;
     fbvh_figures figures;
     size_t references;
@@ -56,7 +60,7 @@ struct mns_frame {
     mns_renderer *renderer;
     mns_plan *plan; /* of the last draw; NULL before the first */
     mns_stats stats;
-    GLuint t, normal, color, shaded; /* textures; color only with COLORS */
+    GLuint t, normal, color, shaded; /* textures; color only with BLENDS */
     GLuint work;                     /* counts of each ray's work, with COUNTERS */
     GLuint lit;                      /* with LIT: colours before the shade pass, linear, premultiplied */
     GLuint terms;   /* and the effects' terms at the first hit: shadow, occlusion, mirror.t, refract.t */
@@ -64,8 +68,9 @@ struct mns_frame {
     GLuint settled; /* and 1, or 0 where some ray beyond it was undecided */
     GLuint planes_target, shaded_target, lit_target;
     int width, height;
-    int summed; /* samples that its colours hold; 0 where they are nobody's */
-    bool has_color, has_work, has_lit, has_mesh;
+    int summed;          /* samples that its colours hold; 0 where they are nobody's */
+    GLenum color_format; /* of `color`; 0: there is none */
+    bool has_work, has_lit, has_mesh;
     float *t_error; /* bound on the error of each distance, row 0 at the top; NULL where the method gives none
                      */
 };

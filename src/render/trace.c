@@ -21,11 +21,9 @@ static bool same_tree(const draw *d)
 static bool same_colors(const draw *d)
 {
     const render_tree *last = &d->r->tree;
-    const mns_plan *plan = d->plan;
-    return !(plan->features & FEATURE_COLORS) ||
-           (last->colored && last->labels == (plan->features & FEATURE_LABELS) &&
-            last->color_column == plan->color_column &&
-            memcmp(last->color_range, plan->color_range, sizeof last->color_range) == 0);
+    const render_colors colors = draw_colors_of(d->plan);
+    return !(d->plan->features & FEATURE_BLENDS) ||
+           (last->colored && memcmp(&last->colors, &colors, sizeof colors) == 0);
 }
 
 static mns_status send_tree(draw *d, mns_error *error)
@@ -56,9 +54,7 @@ static mns_status send_colors(draw *d, mns_error *error)
     draw_mark(d, MNS_PHASE_UPLOAD);
     if (status) return status;
     last->colored = true;
-    last->labels = plan->features & FEATURE_LABELS;
-    last->color_column = plan->color_column;
-    memcpy(last->color_range, plan->color_range, sizeof last->color_range);
+    last->colors = draw_colors_of(plan);
     return MNS_OK;
 }
 
@@ -122,7 +118,7 @@ static mns_status resolve(draw *d, const GLuint *planes, list_counts *counts, mn
 static mns_status trace_rows(draw *d, list_region region, mns_error *error)
 {
     const mns_frame *f = d->frame;
-    const GLuint planes[TRACE_PLANES] = {f->t, f->normal, d->plan->features & FEATURE_COLORS ? f->color : 0,
+    const GLuint planes[TRACE_PLANES] = {f->t, f->normal, d->plan->features & FEATURE_BLENDS ? f->color : 0,
                                          d->plan->features & FEATURE_COUNTERS ? f->work : 0};
     mns_renderer *r = d->r;
     list_counts counts;

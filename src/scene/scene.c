@@ -18,6 +18,7 @@ static void free_file(scene_file *file)
     for (size_t i = 0; i < file->input_count; i++) free(file->inputs[i]);
     free(file->inputs);
     free(file->color_by);
+    free(file->blend_by);
     free(file->environment);
     free(file->lights);
     for (size_t i = 0; i < file->scene.look.mesh_count; i++) free(file->mesh_files[i]);
@@ -88,6 +89,7 @@ mns_status scene_parse(const char *text, size_t size, const char *path, mns_scen
     file->scene.inputs = (const char *const *)file->inputs;
     file->scene.input_count = file->input_count;
     file->scene.look.color_by = file->color_by;
+    file->scene.look.blend.by = file->blend_by;
     file->scene.look.effects.environment = file->environment;
     file->scene.look.lights = file->lights;
     file->scene.look.meshes = file->meshes;

@@ -11,7 +11,7 @@ typedef struct scene_file {
     mns_scene scene; /* first, so that the public pointer is this one */
     char **inputs;
     size_t input_count;
-    char *color_by, *environment;
+    char *color_by, *blend_by, *environment;
     mns_light *lights; /* scene.look.light_count of them */
     mns_mesh *meshes;  /* scene.look.mesh_count of them, */
     char **mesh_files; /* and their names */

@@ -1,4 +1,4 @@
-/* Lights and effects of a scene file. */
+/* Lights, effects and the second material of a scene file. */
 #include "scene/scene_object.h"
 
 #include "base/memory.h"
@@ -173,4 +173,32 @@ mns_status scene_read_effects(scene_reader *r, const char *key, const json_t *va
 {
     (void)target;
     return scene_read_object(r, key, value, EFFECT_KEYS, SCENE_COUNT(EFFECT_KEYS), &r->file->scene.look);
+}
+
+/* ---- The second material ---- */
+
+static mns_status read_by(scene_reader *r, const char *key, const json_t *value, void *target)
+{
+    (void)target;
+    return scene_read_text(r, key, value, &r->file->blend_by);
+}
+
+#define IN_BLEND(member, bit) offsetof(mns_blend, member), offsetof(mns_blend, set), bit
+
+static const scene_key BLEND_KEYS[] = {
+    {"by", read_by, 0, 0, 0},
+    {"range", scene_read_range, offsetof(mns_blend, range), 0, 0},
+    {"color", scene_read_color, IN_BLEND(color, MNS_LOOK_COLOR)},
+    {"mirror", read_share, IN_BLEND(mirror, MNS_LOOK_MIRROR)},
+    {"transmission", read_share, IN_BLEND(transmission, MNS_LOOK_TRANSMISSION)},
+    {"absorption", read_absorption, IN_BLEND(absorption, MNS_LOOK_ABSORPTION)},
+};
+
+mns_status scene_read_blend(scene_reader *r, const char *key, const json_t *value, void *target)
+{
+    (void)target;
+    mns_status status =
+        scene_read_object(r, key, value, BLEND_KEYS, SCENE_COUNT(BLEND_KEYS), &r->file->scene.look.blend);
+    if (!status && !r->file->blend_by) return scene_wrong(r, key, value, "the column to blend by, under by");
+    return status;
 }

@@ -142,6 +142,7 @@ static const scene_key SCENE_KEYS[] = {
     {PART("look", read_look)},
     {PART("effects", scene_read_effects)},
     {PART("material", read_material)},
+    {PART("blend", scene_read_blend)},
     {KEY_SET("background", scene_read_background, look.background, look.set, MNS_LOOK_BACKGROUND)},
     {PART("size", scene_read_size)},
     {KEY("frame", scene_read_frame, frame)},

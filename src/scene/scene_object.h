@@ -19,8 +19,8 @@ mns_status scene_read_object(scene_reader *r, const char *key, const json_t *val
 
 #define SCENE_COUNT(array) (sizeof(array) / sizeof *(array))
 
-/* scene_effects.c: "lights", "effects". */
-scene_read scene_read_lights, scene_read_effects;
+/* scene_effects.c: "lights", "effects", "blend". */
+scene_read scene_read_lights, scene_read_effects, scene_read_blend;
 /* scene_meshes.c: "meshes". */
 scene_read scene_read_meshes;
 

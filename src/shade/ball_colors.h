@@ -1,5 +1,6 @@
-/* Colours of balls as the shaders read them, a word a ball: a value in [0, 1] of the colour map as float, or
- * with FEATURE_LABELS an rgba8. */
+/* Colours and materials of balls as the shaders read them (glsl/surface.glsl). With FEATURE_COLORS a word a
+ * ball: a value in [0, 1] of the colour map as float, or with FEATURE_LABELS an rgba8. With FEATURE_MATERIALS
+ * a word more: its place between the two, as float. */
 #ifndef MNS_SHADE_BALL_COLORS_H
 #define MNS_SHADE_BALL_COLORS_H
 
@@ -7,15 +8,20 @@
 #include "plan/plan.h"
 
 typedef struct ball_colors {
-    const particles_column *column;
+    const mns_field *field;
+    const mns_plan *plan;
+    size_t words;                   /* a ball */
+    const particles_column *column; /* to colour by; NULL without */
     bool labels, elements;
     double low, span;
 } ball_colors;
 
-/* Of a plan with FEATURE_COLORS. It refers to the field. */
+/* Of a plan with some of FEATURE_BLENDS. It refers to both. */
 ball_colors ball_colors_of(const mns_field *field, const mns_plan *plan);
 
-/* The word of the field's ball `index`. */
-uint32_t ball_colors_word(const ball_colors *colors, uint32_t index);
+/* Words that a ball has. */
+size_t ball_colors_words(const mns_plan *plan);
+/* Those of the field's ball `index`. */
+void ball_colors_put(const ball_colors *colors, uint32_t index, uint32_t *word);
 
 #endif

@@ -9,6 +9,7 @@
 typedef struct shade_block {
     float surface_color[4], background[4], light[4], lighting[4], way_corner[4], way_x[4], way_y[4];
     float map[PALETTE_ANCHORS][4];
+    float second_color[4], second_optics[4], second_absorption[4];
 } shade_block;
 
 float shade_linear(double srgb)
@@ -22,6 +23,20 @@ static void put(float to[4], vec3 v, double w)
     to[1] = (float)v.y;
     to[2] = (float)v.z;
     to[3] = (float)w;
+}
+
+/* Absorption beyond this is sent as this: a float's infinity times no way would be no number. */
+#define MOST 1e30
+
+static void put_second(shade_block *block, const mns_blend *second)
+{
+    for (int c = 0; c < 3; c++) {
+        block->second_color[c] = shade_linear(second->color[c]);
+        block->second_absorption[c] = (float)fmin(second->absorption[c], MOST);
+    }
+    block->second_color[3] = second->set & MNS_LOOK_COLOR ? 1 : 0;
+    block->second_optics[0] = (float)second->mirror;
+    block->second_optics[1] = (float)second->transmission;
 }
 
 static void fill(shade_block *block, const mns_plan *plan, const double jitter[2])
@@ -42,6 +57,7 @@ static void fill(shade_block *block, const mns_plan *plan, const double jitter[2
     put(block->way_corner, corner, look->cel_bands);
     put(block->way_x, vec3_scale(f->right, unit), 0);
     put(block->way_y, vec3_scale(f->up, unit), 0);
+    put_second(block, &look->blend);
     const uint32_t *anchor = palette_map(look->color_map);
     for (int i = 0; i < PALETTE_ANCHORS; i++)
         put(block->map[i],

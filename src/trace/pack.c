@@ -123,5 +123,5 @@ void trace_pack_colors(const uint32_t *index, size_t count, const mns_field *fie
 {
     ball_colors colors = ball_colors_of(field, plan);
 #pragma omp parallel for if (count > CHUNK * 8)
-    for (size_t i = 0; i < count; i++) ((uint32_t *)out)[i] = ball_colors_word(&colors, index[i]);
+    for (size_t i = 0; i < count; i++) ball_colors_put(&colors, index[i], (uint32_t *)out + i * colors.words);
 }

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "base/status.h"
+#include "shade/ball_colors.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -95,8 +96,9 @@ mns_status trace_upload_colors(trace_passes *t, gl_device *device, const mns_pla
                                const mns_field *field, mns_error *error)
 {
     void *data;
+    size_t size = t->count * ball_colors_words(plan) * sizeof(uint32_t);
     do {
-        mns_status status = map(device, plan, &t->colors, "colours", t->count * sizeof(float), &data, error);
+        mns_status status = map(device, plan, &t->colors, "colours", size, &data, error);
         if (status) return status;
         trace_pack_colors(t->index, t->count, field, plan, data);
     } while (!gl_buffer_unmap(device, &t->colors));
@@ -149,7 +151,7 @@ void trace_bind(trace_passes *t, list_passes *p, gl_device *device, const mns_pl
 static void bind_tree(trace_passes *t, list_passes *p, gl_device *device, const mns_plan *plan,
                       const GLuint plane[TRACE_PLANES])
 {
-    static const GLenum plane_formats[TRACE_PLANES] = {GL_RG32F, GL_RGBA32F, GL_RGBA16F, GL_RGBA32F};
+    const GLenum plane_formats[TRACE_PLANES] = {GL_RG32F, GL_RGBA32F, list_color_format(plan), GL_RGBA32F};
     const GladGLContext *gl = &device->gl;
     trace_bind(t, p, device, plan);
     if (p->far_block.id) gl->BindBufferBase(GL_UNIFORM_BUFFER, 1, p->far_block.id);

@@ -135,6 +135,21 @@ static json_t *material_of(const mns_look *look)
     return to;
 }
 
+static json_t *blend_of(const mns_blend *b)
+{
+    json_t *to = json_object();
+    if (!b->by) return to;
+    put(to, "by", json_string(b->by));
+    if (b->range[0] != 0 || b->range[1] != 0) put(to, "range", numbers(b->range, 2));
+    if (b->set & MNS_LOOK_COLOR || !is_zero(b->color)) put(to, "color", numbers(b->color, 3));
+    if (b->set & MNS_LOOK_MIRROR || b->mirror > 0) put(to, "mirror", json_real(b->mirror));
+    if (b->set & MNS_LOOK_TRANSMISSION || b->transmission > 0)
+        put(to, "transmission", json_real(b->transmission));
+    if (b->set & MNS_LOOK_ABSORPTION || !is_zero(b->absorption))
+        put(to, "absorption", numbers(b->absorption, 3));
+    return to;
+}
+
 /* A whole number that is given, be it by a bit that says that 0 is meant. */
 static void put_whole(json_t *to, const char *key, const mns_look *look, unsigned bit, int value)
 {
@@ -203,6 +218,7 @@ static json_t *scene_of(const window_settings *s, const mns_look *look, const mn
     put_meshes(to, look);
     put_object(to, "material", material_of(look));
     put_object(to, "effects", effects_of(look));
+    put_object(to, "blend", blend_of(&look->blend));
     if (look->set & MNS_LOOK_BACKGROUND) put(to, "background", numbers(look->background, 4));
     if (s->draw.method) put(to, "method", json_string(mns_method_name(s->draw.method)));
     if (s->draw.solver) put(to, "solver", json_string(mns_solver_name(s->draw.solver)));
@@ -224,6 +240,7 @@ static mns_status check_text(const char *name, bool is_file, mns_error *error)
 static mns_status check_names(const window_settings *s, const mns_look *look, mns_error *error)
 {
     mns_status status = check_text(look->color_by, false, error);
+    if (!status) status = check_text(look->blend.by, false, error);
     if (!status) status = check_text(look->effects.environment, true, error);
     for (size_t i = 0; i < s->input_count && !status; i++) status = check_text(s->inputs[i], true, error);
     for (size_t i = 0; i < look->mesh_count && !status; i++)

@@ -31,7 +31,7 @@ grep -q '^```c$' README.md || complain "no C in it"
 
 # Keys of a scene, as a wrong one is answered.
 scene=${TMPDIR:-/tmp}/readme.$$.json
-for part in '{"?":1}' '{"field":{"?":1}}' '{"camera":{"?":1}}' '{"light":{"?":1}}' '{"material":{"?":1}}' '{"effects":{"?":1}}' '{"lights":[{"?":1}]}'; do
+for part in '{"?":1}' '{"field":{"?":1}}' '{"camera":{"?":1}}' '{"light":{"?":1}}' '{"material":{"?":1}}' '{"effects":{"?":1}}' '{"lights":[{"?":1}]}' '{"blend":{"?":1}}'; do
     echo "$part" >"$scene"
     for key in $("$program" info "$scene" 2>&1 | sed -n 's/.*known: //p' | tr -d ,); do
         grep -q "[\`.]$key\(\`\|\.\)" README.md || complain "the scene's key $key is not in it"

@@ -8,11 +8,12 @@
 
 #include <cmocka.h>
 
-static void give_albedo(const void *user, const reference_scratch *scratch, double s, double color[3])
+static double give_albedo(const void *user, const reference_scratch *scratch, double s, double color[3])
 {
     const effects_fixture *f = user;
     (void)scratch, (void)s;
     memcpy(color, f->albedo, sizeof f->albedo);
+    return f->weight;
 }
 
 void effects_fixture_open(effects_fixture *f, const mns_field *field, vec3 eye, vec3 at, const mns_look *look)

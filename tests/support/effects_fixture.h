@@ -11,7 +11,8 @@ typedef struct effects_fixture {
     mns_plan *plan;
     effects_scene scene;
     reference_scratch scratch;
-    double albedo[3]; /* linear */
+    double albedo[3]; /* linear, */
+    double weight;    /* and how much of the second material, of any surface */
 } effects_fixture;
 
 /* The scene of a field, seen from `eye` towards `at`, by a look; free by effects_fixture_close. */

@@ -45,8 +45,8 @@ bool variant_possible(uint64_t f)
 {
     unsigned kernel = f & FEATURE_KERNEL, solver = (f & FEATURE_SOLVER) >> 3;
     if (f & FEATURE_REFERENCE) { /* its looks, and nothing of the list */
-        uint64_t looks = FEATURE_COLORS | FEATURE_LABELS | FEATURE_CEL | FEATURE_DIRECTIONAL |
-                         FEATURE_SPECULAR | FEATURE_SAMPLES;
+        uint64_t looks = FEATURE_COLORS | FEATURE_LABELS | FEATURE_MATERIALS | FEATURE_CEL |
+                         FEATURE_DIRECTIONAL | FEATURE_SPECULAR | FEATURE_SAMPLES;
         return kernel >= MNS_KERNEL_POLY2 && kernel <= MNS_KERNEL_WENDLAND &&
                !(f & ~(looks | EFFECTS | FEATURE_KERNEL | FEATURE_REFERENCE)) && effects_possible(f) &&
                implies(f, FEATURE_LABELS, FEATURE_COLORS);

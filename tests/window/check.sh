@@ -102,6 +102,10 @@ grep -q '^still: .* 800x600 of 800x600' log || complain "the resolution does not
 # ---- A scene tells what it cannot say, and takes no name that is not UTF-8.
 view $'save left.json\nset look glass\nsave said.json\nquit' scattered:50 "${size[@]}" --method fbvh --tree no-fit --secant-steps 9
 grep -q '^saved left.json without what a scene cannot say: --tree, --secant-steps' log || complain "not told: $(cat log)"
+view $'set blend-mirror 0.25\nsave blend.png\nsave blend.json\nquit' tornado:100 "${size[@]}" --blend-by speed --blend-range 0:2 \
+    --blend-color 0,0,0
+render blend.json -o expected.png
+same blend.png expected.png "a saved second material"
 name=$'b\xe4r.csv'
 printf '0,0,0\n' >"$name"
 view $'save none.json\nsave some.png\nquit' "$name" "${size[@]}" --radius 1
