@@ -2,6 +2,7 @@
  * at every scale, inside the medium too; and nothing of them where there are none. */
 #include "render/render.h"
 #include "support/draw_fixture.h"
+#include "support/mesh_file.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -20,18 +21,9 @@ static const mns_options truth = {.method = MNS_METHOD_REFERENCE};
 static const mns_light sun = {.kind = MNS_LIGHT_DIRECTIONAL, .direction = {1, 2, 1.5}};
 
 typedef struct files {
-    char floor[40], box[40];
+    mesh_path floor, box;
     mns_mesh mesh[2];
 } files;
-
-static void write_mesh(const char *text, char path[40])
-{
-    snprintf(path, 40, "/tmp/solids-XXXXXX.obj");
-    int file = mkstemps(path, 4);
-    assert_true(file >= 0);
-    assert_int_equal(write(file, text, strlen(text)), strlen(text));
-    close(file);
-}
 
 /* A floor under the field, and a tetrahedron at `at`, all times `size`. */
 static void write_files(files *f, double size, const double at[3])
@@ -42,13 +34,13 @@ static void write_files(files *f, double size, const double at[3])
              "v %.9g %.9g %.9g\nv %.9g %.9g %.9g\nv %.9g %.9g %.9g\nv %.9g %.9g %.9g\nf 1 2 3 4\n", -2 * size,
              -0.3 * size, -2 * size, -2 * size, -0.3 * size, 2 * size, 2 * size, -0.3 * size, 2 * size,
              2 * size, -0.3 * size, -2 * size);
-    write_mesh(text, f->floor);
+    mesh_write(".obj", text, f->floor);
     snprintf(text, sizeof text,
              "v %.9g %.9g %.9g\nv %.9g %.9g %.9g\nv %.9g %.9g %.9g\nv %.9g %.9g %.9g\nf 1 2 3\nf 2 4 3\nf 4 "
              "1 3\nf 1 4 "
              "2\n",
              x - s, y - s, z - s, x + s, y - s, z - s, x, y + s, z, x, y - s, z + s);
-    write_mesh(text, f->box);
+    mesh_write(".obj", text, f->box);
     f->mesh[0] = (mns_mesh){.file = f->floor};
     f->mesh[1] = (mns_mesh){.file = f->box, .has_color = true, .color = {0.9, 0.3, 0.2}};
 }
@@ -57,11 +49,6 @@ static void drop_files(const files *f)
 {
     unlink(f->floor);
     unlink(f->box);
-}
-
-static bool reads_meshes(void)
-{
-    return strstr(mns_version(), "no assimp") == NULL;
 }
 
 static bool is_second(const draw_fixture *d)
@@ -135,7 +122,7 @@ static void meshes_are_lit_and_mirrored_at_every_scale(void **state)
 {
     draw_fixture *d = *state;
     static const double beside[3] = {0.7, 0, 0.1};
-    if (!reads_meshes()) skip();
+    if (!mesh_is_built_in()) skip();
     for (double size = 1e-6; size < 1e7; size *= 1e6) {
         files f;
         char what[64];
@@ -166,7 +153,7 @@ static void a_mesh_in_glass_is_seen_through_it(void **state)
     draw_fixture *d = *state;
     static const double within[3] = {0.05, 0, 0};
     files f;
-    if (!reads_meshes() || is_second(d)) skip();
+    if (!mesh_is_built_in() || is_second(d)) skip();
     write_files(&f, 1, within);
     mns_field *field = three_balls(1);
     const mns_options options = {.method = MNS_METHOD_FBVH};
@@ -201,11 +188,11 @@ static void a_mesh_in_glass_is_seen_through_it(void **state)
 }
 
 /* A bumpy sheet of about a hundred thousand triangles under the field, in place of the floor. */
-static void write_sheet(char path[40])
+static void write_sheet(mesh_path path)
 {
     enum { SIDE = 224 };
-    snprintf(path, 40, "/tmp/solids-XXXXXX.obj");
-    FILE *file = fdopen(mkstemps(path, 4), "w");
+    mesh_write(".obj", "", path);
+    FILE *file = fopen(path, "w");
     assert_non_null(file);
     for (int i = 0; i < SIDE * SIDE; i++) {
         double x = 4.0 * (i % SIDE) / SIDE - 2, z = 4.0 * (i / SIDE) / SIDE - 2;
@@ -223,7 +210,7 @@ static void a_mesh_of_many_triangles_is_walked_in_parts(void **state)
     draw_fixture *d = *state;
     static const double beside[3] = {0.7, 0, 0.1};
     files f;
-    if (!reads_meshes() || is_second(d)) skip();
+    if (!mesh_is_built_in() || is_second(d)) skip();
     write_files(&f, 1, beside);
     unlink(f.floor);
     write_sheet(f.floor);
@@ -248,7 +235,7 @@ static void a_far_eye_is_certain_of_a_mesh(void **state)
     draw_fixture *d = *state;
     static const double within[3] = {0.55, 0.05, 0.2}, at[3] = {0.1, 0, 0};
     files f;
-    if (!reads_meshes()) skip();
+    if (!mesh_is_built_in()) skip();
     write_files(&f, 1, within);
     mns_field *field = three_balls(1);
     const mns_look look = {.lights = &sun, .light_count = 1, .meshes = f.mesh, .mesh_count = 2};
@@ -278,10 +265,11 @@ static void a_floor_as_wide_as_floats_allow_is_met(void **state)
     draw_fixture *d = *state;
     static const double beside[3] = {0.7, 0.3, 0.1};
     files f;
-    if (!reads_meshes() || is_second(d)) skip();
+    if (!mesh_is_built_in() || is_second(d)) skip();
     write_files(&f, 1, beside);
     unlink(f.floor);
-    write_mesh("v -3e9 -0.3 -3e9\nv -3e9 -0.3 3e9\nv 3e9 -0.3 3e9\nv 3e9 -0.3 -3e9\nf 1 2 3 4\n", f.floor);
+    mesh_write(".obj", "v -3e9 -0.3 -3e9\nv -3e9 -0.3 3e9\nv 3e9 -0.3 3e9\nv 3e9 -0.3 -3e9\nf 1 2 3 4\n",
+               f.floor);
     mns_field *field = three_balls(1);
     const mns_view view = view_of(1);
     const mns_options options = {.method = MNS_METHOD_FBVH};
@@ -308,10 +296,10 @@ static void of_meshes_in_one_plane_the_first_is_seen(void **state)
     draw_fixture *d = *state;
     static const double beside[3] = {0.7, 0, 0.1};
     files f;
-    if (!reads_meshes()) skip();
+    if (!mesh_is_built_in()) skip();
     write_files(&f, 1, beside);
     unlink(f.box);
-    write_mesh("v -0.7 -0.3 -0.9\nv -0.8 -0.3 1.1\nv 0.9 -0.3 0.8\nf 1 2 3\n", f.box);
+    mesh_write(".obj", "v -0.7 -0.3 -0.9\nv -0.8 -0.3 1.1\nv 0.9 -0.3 0.8\nf 1 2 3\n", f.box);
     mns_field *field = three_balls(1);
     const mns_view view = view_of(1);
     const mns_options options = {.method = MNS_METHOD_FBVH};
@@ -346,7 +334,7 @@ static void what_no_mesh_hides_stays_as_it_is(void **state)
     draw_fixture *d = *state;
     static const double beside[3] = {0.7, 0, 0.1};
     files f;
-    if (!reads_meshes()) skip();
+    if (!mesh_is_built_in()) skip();
     write_files(&f, 1, beside);
     mns_field *field = three_balls(1);
     const mns_view view = view_of(1);
