@@ -62,3 +62,16 @@ mns_status gl_buffer_send(gl_device *device, gl_buffer *buffer, const char *what
     } while (!gl_buffer_unmap(device, buffer));
     return MNS_OK;
 }
+
+void gl_buffer_fetch(gl_device *device, GLuint id, size_t size, void *data)
+{
+    const GladGLContext *gl = &device->gl;
+    bool made = device->reading;
+    if (!made) gl->GenBuffers(1, &device->reading);
+    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, id);
+    gl->BindBuffer(GL_ARRAY_BUFFER, device->reading);
+    if (!made) gl->BufferData(GL_ARRAY_BUFFER, GL_BUFFER_FETCH_MOST, NULL, GL_STREAM_READ);
+    gl->CopyBufferSubData(GL_SHADER_STORAGE_BUFFER, GL_ARRAY_BUFFER, 0, 0, (GLsizeiptr)size);
+    gl->GetBufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)size, data);
+    gl->BindBuffer(GL_ARRAY_BUFFER, 0);
+}

@@ -22,5 +22,10 @@ bool gl_buffer_unmap(gl_device *device, gl_buffer *buffer);
  * UNSUPPORTED. */
 mns_status gl_buffer_send(gl_device *device, gl_buffer *buffer, const char *what, const void *data,
                           size_t size, size_t most, mns_error *error);
+/* The first `size` bytes of buffer `id`, GL_BUFFER_FETCH_MOST or fewer, once the commands before have written
+ * them. They come through a buffer of their own: a driver may move one that is read to the host's memory, and
+ * what the card writes there every frame would go the long way. */
+enum { GL_BUFFER_FETCH_MOST = 64 };
+void gl_buffer_fetch(gl_device *device, GLuint id, size_t size, void *data);
 
 #endif

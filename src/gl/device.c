@@ -82,6 +82,8 @@ void gl_device_close(gl_device *device)
     const GladGLContext *gl = &device->gl;
     void *user = NULL;
     if (!gl->GetPointerv) return;
+    if (device->reading) gl->DeleteBuffers(1, &device->reading);
+    device->reading = 0;
     gl->GetPointerv(GL_DEBUG_CALLBACK_USER_PARAM, &user);
     if (user == device) gl->DebugMessageCallback(NULL, NULL);
 }

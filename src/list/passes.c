@@ -185,7 +185,7 @@ size_t list_gather(list_passes *p, gl_device *device, const mns_plan *plan, cons
                       GL_ATOMIC_COUNTER_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT |
                       GL_FRAMEBUFFER_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
     GLuint wanted = 0;
-    gl->GetBufferSubData(GL_ATOMIC_COUNTER_BUFFER, 0, sizeof wanted, &wanted);
+    gl_buffer_fetch(device, p->counter.id, sizeof wanted, &wanted);
     gl->Disable(GL_DEPTH_TEST);
     return (size_t)wanted + 1; /* node 0 ends the lists */
 }
@@ -194,8 +194,7 @@ static void read_counts(list_passes *p, gl_device *device, list_counts *counts)
 {
     const GladGLContext *gl = &device->gl;
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
-    gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof *counts, counts);
+    gl_buffer_fetch(device, p->redo.id, sizeof *counts, counts);
 }
 
 /* A compute pass over a region's lists, a pixel an invocation. */

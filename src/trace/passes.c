@@ -177,8 +177,7 @@ void trace_finish(list_passes *p, gl_device *device, list_counts *counts)
                       GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                       GL_FRAMEBUFFER_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT |
                       GL_TEXTURE_UPDATE_BARRIER_BIT);
-    gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, p->redo.id);
-    gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, sizeof *counts, counts);
+    gl_buffer_fetch(device, p->redo.id, sizeof *counts, counts);
 }
 
 static mns_status upload_blocks(trace_passes *t, gl_device *device, const mns_plan *plan, list_region region,
