@@ -72,18 +72,19 @@ REAL piece_add(inout REAL b[DEGREE + 1], Chord chord, REAL q, REAL s, REAL stop)
     return max(c0, max(c1, c2));
 }
 
-// What piece_add leaves to be done once a piece.
+// What piece_add leaves to be done once a piece. Divided, not multiplied by a quotient of constants: a compiler may take that in
+// float, also where a double is wanted.
 void piece_parts(inout REAL b[DEGREE + 1])
 {
 #if KERNEL == DENSITY_POLY2
-    b[2] *= NUM(1.0) / NUM(3.0);
+    b[2] /= NUM(3.0);
 #elif KERNEL == DENSITY_POLY3
-    for (int i = 2; i < 5; i++) b[i] *= NUM(1.0) / NUM(5.0);
+    for (int i = 2; i < 5; i++) b[i] /= NUM(5.0);
 #elif KERNEL == DENSITY_POLY4
-    for (int i = 2; i < 7; i++) b[i] *= NUM(1.0) / (i == 4 ? NUM(35.0) : NUM(7.0));
+    for (int i = 2; i < 7; i++) b[i] /= i == 4 ? NUM(35.0) : NUM(7.0);
 #else
     const REAL over[DEGREE + 1] = REAL[](NUM(9.0), NUM(27.0), NUM(135.0), NUM(45.0), NUM(135.0), NUM(27.0), NUM(9.0));
-    for (int i = 0; i <= DEGREE; i++) b[i] *= NUM(1.0) / over[i];
+    for (int i = 0; i <= DEGREE; i++) b[i] /= over[i];
 #endif
 }
 

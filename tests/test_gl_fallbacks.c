@@ -129,7 +129,8 @@ static void more_balls_than_slots_take_the_lists_in_place(void **state)
     for (size_t i = 0; i < 2; i++) {
         mns_field *field = thick_cloud(kernels[i]);
         mns_image *plain = draw_image(d, field, &view, NULL, NULL);
-        assert_int_equal(d->stats.fallbacks.active_overflow, 0);
+        if (mns_renderer_limits(d->renderer)->is_software) /* of a card the slots are fewer */
+            assert_int_equal(d->stats.fallbacks.active_overflow, 0);
         mns_image *few = draw_image(d, field, &view, NULL, &(mns_options){.slots = 2});
         assert_true(d->stats.fallbacks.active_overflow > 1000);
         assert_int_equal(d->stats.pixels_undecided, 0);
@@ -169,7 +170,8 @@ static void lists_in_any_order_give_the_same_bits(void **state)
     mns_field *field = thick_cloud(MNS_KERNEL_POLY3);
     mns_image *plain = draw_image(d, field, &view, NULL, NULL);
     uint64_t sorted = d->stats.fallbacks.lists_sorted;
-    assert_int_equal(sorted, 0);
+    /* a card's are sorted always, for it promises no order */
+    assert_int_equal(sorted, !mns_renderer_limits(d->renderer)->is_software);
     for (size_t i = 0; i < 3; i++) {
         mns_image *shuffled = draw_image(d, field, &view, NULL, &(mns_options){.shuffle = seeds[i]});
         assert_true(d->stats.fallbacks.lists_sorted > 0);

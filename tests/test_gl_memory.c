@@ -142,7 +142,9 @@ static void expect_no_growth(draw_fixture *d, const mns_field *field, const mns_
         before = now;
     }
     qsort(growth, ROUNDS, sizeof *growth, by_size);
-    if (growth[ROUNDS / 2] > 16) fail_msg("each renderer leaves some %ld KiB behind", growth[ROUNDS / 2]);
+    /* A card's driver was seen to keep some of each program, whoever deletes it. */
+    const long most = mns_renderer_limits(d->renderer)->is_software ? 16 : 256;
+    if (growth[ROUNDS / 2] > most) fail_msg("each renderer leaves some %ld KiB behind", growth[ROUNDS / 2]);
     expect_grown_by(first, 1024, "5 renderers");
 }
 

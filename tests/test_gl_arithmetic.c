@@ -1,0 +1,150 @@
+/* What the bounds of law 4 take from a driver's arithmetic: in floats and in doubles, that sums and products
+ * marked precise are rounded once, and that quotients and roots are off by no more than a few units in the
+ * last place. GLSL promises so much of floats (4.30, section 4.7.1); of doubles it promises less than every
+ * driver was seen to give. */
+#include "gl/glsl_text.h"
+#include "support/gl_fixture.h"
+
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { PAIRS = 8192, GROUP = 64 };
+enum { SUM, PRODUCT, TWICE, QUOTIENT, FIFTH, ROOT, UNIT, OPERATIONS };
+
+static const char *const names[OPERATIONS] = {"a + b", "a b",       "a b - b b",    "a / b",
+                                              "a / 5", "root of a", "1 / root of a"};
+/* Units in the last place, of the larger product where two are subtracted. */
+static const double allowed[OPERATIONS] = {0, 0, 1, 2.5, 2.5, 4, 6};
+
+static const char compute_main[] =
+    "layout(local_size_x = 64) in;\n"
+    "layout(std430, binding = 0) readonly buffer Pairs { REAL pair[]; };\n"
+    "layout(std430, binding = 1) writeonly buffer Results { REAL result[]; };\n"
+    "void main()\n"
+    "{\n"
+    "    uint i = gl_GlobalInvocationID.x;\n"
+    "    REAL a = pair[2u * i], b = pair[2u * i + 1u];\n"
+    "    precise REAL sum = a + b, product = a * b, twice = a * b - b * b;\n"
+    "    result[7u * i] = sum;\n"
+    "    result[7u * i + 1u] = product;\n"
+    "    result[7u * i + 2u] = twice;\n"
+    "    result[7u * i + 3u] = a / b;\n"
+    "    result[7u * i + 4u] = a / NUM(5.0);\n"
+    "    result[7u * i + 5u] = sqrt(a);\n"
+    "    result[7u * i + 6u] = NUM(1.0) / sqrt(a);\n"
+    "}\n";
+
+static const char *embedded(const char *name)
+{
+    for (const glsl_text *file = glsl_texts; file->name; file++)
+        if (!strcmp(file->name, name)) return file->text;
+    fail_msg("%s is not embedded", name);
+    return NULL;
+}
+
+static GLuint compile(const GladGLContext *gl, bool single)
+{
+    char log[512] = "";
+    const char *const text[] = {single ? "#version 430 core\n" : "#version 430 core\n#define MNS_DOUBLE 1\n",
+                                embedded("real.glsl"), compute_main};
+    GLuint shader = gl->CreateShader(GL_COMPUTE_SHADER), program = gl->CreateProgram();
+    gl->ShaderSource(shader, 3, text, NULL);
+    gl->CompileShader(shader);
+    gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
+    gl->AttachShader(program, shader);
+    gl->LinkProgram(program);
+    gl->DeleteShader(shader);
+    GLint linked = GL_FALSE;
+    gl->GetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (!linked) fail_msg("%s", log);
+    return program;
+}
+
+static void run(const GladGLContext *gl, bool single, const void *pair, void *result)
+{
+    GLsizeiptr size = PAIRS * (GLsizeiptr)(single ? sizeof(float) : sizeof(double));
+    GLuint program = compile(gl, single), buffer[2];
+    gl->GenBuffers(2, buffer);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer[0]);
+    gl->BufferData(GL_SHADER_STORAGE_BUFFER, 2 * size, pair, GL_STATIC_DRAW);
+    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffer[1]);
+    gl->BufferData(GL_SHADER_STORAGE_BUFFER, OPERATIONS * size, NULL, GL_STATIC_READ);
+    gl->UseProgram(program);
+    gl->DispatchCompute(PAIRS / GROUP, 1, 1);
+    gl->MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, OPERATIONS * size, result);
+    gl->UseProgram(0);
+    gl->DeleteBuffers(2, buffer);
+    gl->DeleteProgram(program);
+}
+
+/* The answers, rounded once where C can; for floats from doubles. */
+static double answer(int operation, double a, double b, bool single)
+{
+    double wanted[] = {a + b,      a * b, single ? (float)(a * b) - (double)(float)(b * b) : a * b - b * b,
+                       a / b,      a / 5, sqrt(a),
+                       1 / sqrt(a)};
+    return single ? (float)wanted[operation] : wanted[operation];
+}
+
+static double unit_of(double x, bool single)
+{
+    int exponent;
+    frexp(x, &exponent);
+    return ldexp(1, exponent - (single ? 24 : 53));
+}
+
+static void compare(gl_fixture *fixture, bool single)
+{
+    static double pair[2 * PAIRS], result[OPERATIONS * PAIRS];
+    static float pair_f[2 * PAIRS], result_f[OPERATIONS * PAIRS];
+    double worst[OPERATIONS] = {0};
+    unsigned seed = 5;
+    for (int i = 0; i < 2 * PAIRS; i++) { /* from 2^-8 to 2^8, of either parity of exponent */
+        seed = seed * 1664525u + 1013904223u;
+        double low = seed * 0x1p-32;
+        seed = seed * 1664525u + 1013904223u;
+        pair[i] = exp2(16 * (low * 0x1p-20 + seed * 0x1p-32) - 8);
+        if (single) pair[i] = (float)pair[i];
+        pair_f[i] = (float)pair[i];
+    }
+    run(&fixture->gl, single, single ? (const void *)pair_f : pair, single ? (void *)result_f : result);
+    for (int i = 0; i < OPERATIONS * PAIRS; i++) {
+        int operation = i % OPERATIONS;
+        const double *of = &pair[2 * (i / OPERATIONS)];
+        double got = single ? (double)result_f[i] : result[i], want = answer(operation, of[0], of[1], single);
+        double size = operation == TWICE ? fmax(of[0] * of[1], of[1] * of[1]) : want;
+        worst[operation] = fmax(worst[operation], fabs(got - want) / unit_of(size, single));
+    }
+    for (int operation = 0; operation < OPERATIONS; operation++)
+        printf("%s, %s: %g ulp\n", single ? "floats" : "doubles", names[operation], worst[operation]);
+    for (int operation = 0; operation < OPERATIONS; operation++)
+        assert_true(worst[operation] <= allowed[operation]);
+    gl_fixture_check(fixture);
+}
+
+static void floats_are_as_good_as_the_bounds_take_them_for(void **state)
+{
+    compare(*state, true);
+}
+
+static void doubles_are_as_good_as_the_bounds_take_them_for(void **state)
+{
+    compare(*state, false);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(floats_are_as_good_as_the_bounds_take_them_for),
+        cmocka_unit_test(doubles_are_as_good_as_the_bounds_take_them_for),
+    };
+    return cmocka_run_group_tests_name("arithmetic", tests, gl_fixture_setup, gl_fixture_teardown);
+}
