@@ -12,46 +12,46 @@ const int PIECE_LATER = 4;   // no verdict yet: to be taken up where the search 
 const int SEES_NONE = 0, SEES_ONE = 1, SEES_OPEN = 2;
 
 // What the signs of the coefficients prove, coming from below.
-int bernstein_sees(REAL b[DEGREE + 1], REAL margin)
+int bernstein_sees(KEPT b[DEGREE + 1], REAL margin)
 {
     int first = DEGREE + 1;    // first coefficient not below zero for certain
     bool above = true;         // all after it are above zero for certain
     for (int i = 0; i <= DEGREE; i++) {
         if (first <= DEGREE)
-            above = above && b[i] > margin;
-        else if (!(b[i] < -margin))
+            above = above && kept(b[i]) > margin;
+        else if (!(kept(b[i]) < -margin))
             first = i;
     }
     if (first > DEGREE) return SEES_NONE;
-    if (first == DEGREE) return b[DEGREE] > margin ? SEES_ONE : SEES_NONE;
-    if (above && (first > 0 || b[0] <= margin)) return SEES_ONE;
+    if (first == DEGREE) return kept(b[DEGREE]) > margin ? SEES_ONE : SEES_NONE;
+    if (above && (first > 0 || kept(b[0]) <= margin)) return SEES_ONE;
     return SEES_OPEN;
 }
 
 // de Casteljau at x: `left` is the polynomial on [0, x], what is left in b is it on [x, 1].
-void bernstein_split(inout REAL b[DEGREE + 1], REAL x, out REAL left[DEGREE + 1])
+void bernstein_split(inout KEPT b[DEGREE + 1], REAL x, out KEPT left[DEGREE + 1])
 {
     for (int k = 0; k <= DEGREE; k++) {
         left[k] = b[0];
-        for (int i = 0; i < DEGREE - k; i++) b[i] += x * (b[i + 1] - b[i]);
+        for (int i = 0; i < DEGREE - k; i++) kept_add(b[i], x * (kept(b[i + 1]) - kept(b[i])));
     }
 }
 
 // Value and slope at x.
-REAL bernstein_at(REAL b[DEGREE + 1], REAL x, out REAL slope)
+REAL bernstein_at(KEPT b[DEGREE + 1], REAL x, out REAL slope)
 {
     for (int k = 0; k < DEGREE - 1; k++)
-        for (int i = 0; i < DEGREE - k; i++) b[i] += x * (b[i + 1] - b[i]);
-    slope = NUM(DEGREE) * (b[1] - b[0]);
-    return b[0] + x * (b[1] - b[0]);
+        for (int i = 0; i < DEGREE - k; i++) kept_add(b[i], x * (kept(b[i + 1]) - kept(b[i])));
+    slope = NUM(DEGREE) * (kept(b[1]) - kept(b[0]));
+    return kept(b[0]) + x * (kept(b[1]) - kept(b[0]));
 }
 
 // The one root of a polynomial that SEES_ONE, by Newton steps kept inside a shrinking bracket.
-REAL bernstein_root(REAL b[DEGREE + 1])
+REAL bernstein_root(KEPT b[DEGREE + 1])
 {
     REAL low = NUM(0.0);
     REAL high = NUM(1.0);
-    REAL x = clamp(b[0] / (b[0] - b[DEGREE]), NUM(0.0), NUM(1.0));
+    REAL x = clamp(kept(b[0]) / (kept(b[0]) - kept(b[DEGREE])), NUM(0.0), NUM(1.0));
     for (int step = 0; step < 60; step++) {
         REAL slope;
         REAL value = bernstein_at(b, x, slope);
@@ -73,13 +73,13 @@ REAL bernstein_root(REAL b[DEGREE + 1])
 #endif
 
 // Where the largest coefficient stands, away from the ends: a good place to split a hump.
-REAL bernstein_hump(REAL b[DEGREE + 1])
+REAL bernstein_hump(KEPT b[DEGREE + 1])
 {
-    REAL largest = b[1];
+    REAL largest = kept(b[1]);
     REAL place = NUM(1.0);
     for (int i = 2; i < DEGREE; i++)
-        if (b[i] > largest) {
-            largest = b[i];
+        if (kept(b[i]) > largest) {
+            largest = kept(b[i]);
             place = NUM(i);
         }
     return place / NUM(DEGREE);
@@ -88,7 +88,7 @@ REAL bernstein_hump(REAL b[DEGREE + 1])
 // The first x in [0, 1] at which the polynomial rises through zero, never passing one and never taking a later one: the search
 // goes on from a place only when everything to the left of it has been proved to stay below zero. Where a stretch proves nothing
 // it is cut at its hump, and its left part looked at first; no stack is kept, what lies right is cut again from b.
-int bernstein_first(REAL b[DEGREE + 1], REAL margin, int steps, out REAL root)
+int bernstein_first(KEPT b[DEGREE + 1], REAL margin, int steps, out REAL root)
 {
     REAL low = NUM(0.0);    // b is the polynomial on [low, 1]
     REAL width = NUM(1.0);  // of that, the stretch looked at
@@ -99,14 +99,14 @@ int bernstein_first(REAL b[DEGREE + 1], REAL margin, int steps, out REAL root)
         if (ROOT_MATTERS) root = bernstein_root(b);
         return PIECE_HIT;
     }
-    REAL scale = abs(b[0]);
-    for (int i = 1; i <= DEGREE; i++) scale = max(scale, abs(b[i]));
+    REAL scale = abs(kept(b[0]));
+    for (int i = 1; i <= DEGREE; i++) scale = max(scale, abs(kept(b[i])));
     REAL rounding = NUM(0.5) * TAU * scale;
     margin += rounding;
     width = bernstein_hump(b);
     for (int step = 0; step < steps; step++) {
-        REAL left[DEGREE + 1];
-        REAL right[DEGREE + 1] = b;
+        KEPT left[DEGREE + 1];
+        KEPT right[DEGREE + 1] = b;
         bernstein_split(right, width, left);
         sees = bernstein_sees(left, margin);
         if (sees == SEES_ONE) {
@@ -120,7 +120,7 @@ int bernstein_first(REAL b[DEGREE + 1], REAL margin, int steps, out REAL root)
             margin += rounding;
             width = NUM(1.0);
         } else {
-            if (b[0] > margin || width < SOLVE_TOLERANCE) return PIECE_OPEN;
+            if (kept(b[0]) > margin || width < SOLVE_TOLERANCE) return PIECE_OPEN;
             width *= bernstein_hump(left);
         }
     }

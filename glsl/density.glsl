@@ -1,8 +1,7 @@
 // The density kernels: every method's only copy, valid GLSL and valid C.
 //
 // The includer defines REAL (float or double), NUM(x) (a REAL constant; x must be exact in float, since GLSL reads 0.1 as a
-// float even where a double is wanted; nor a quotient of two, which compilers were seen to take in float: a third of x is
-// x / NUM(3.0)) and DENSITY_FN (storage words; empty in GLSL).
+// float even where a double is wanted, so a third is NUM(1.0) / NUM(3.0)) and DENSITY_FN (storage words; empty in GLSL).
 // `kernel` is one of the numbers below (mns_kernel of meniscus.h); a literal there folds the choice away.
 //
 // A kernel is a function of v = r / R in [0, 1], with k(0) = 1 and zero from v = 1 on. All are evaluated from u = v^2 through

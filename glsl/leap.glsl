@@ -11,26 +11,26 @@
 const int LEAPS = 6;                       // lengths, each a quarter of the one before
 const REAL LEAP_SUM = NUM(0.125) * TAU;    // what adding one more number may round, relative to the sum: well above a half step
 
-REAL leap_sum[LEAPS];    // the most that f can be, seen from outside; the least, from inside
-REAL leap_size[LEAPS];   // of the sums of absolute values
-REAL leap_margin[LEAPS]; // of rounding, over TAU
+KEPT leap_sum[LEAPS];    // the most that f can be, seen from outside; the least, from inside
+KEPT leap_size[LEAPS];   // of the sums of absolute values
+KEPT leap_margin[LEAPS]; // of rounding, over TAU
 
 void leap_begin()
 {
-    for (int k = 0; k < LEAPS; k++) leap_sum[k] = leap_size[k] = leap_margin[k] = NUM(0.0);
+    for (int k = 0; k < LEAPS; k++) leap_sum[k] = leap_size[k] = leap_margin[k] = keep(NUM(0.0));
 }
 
 // Adds a ball to the stretch [s, to]; nothing where it does not reach into it.
-void leap_add(Chord chord, REAL s, REAL to, bool high, inout REAL sum, inout REAL size, inout REAL margin)
+void leap_add(Chord chord, REAL s, REAL to, bool high, inout KEPT sum, inout KEPT size, inout KEPT margin)
 {
     REAL middle = NUM(0.5) * (chord.a + chord.b);
     REAL near = clamp(middle, s, to);
     REAL far = abs(s - middle) > abs(to - middle) ? s : to;
     REAL most = clamp((near - chord.a) * (chord.b - near) * chord.shrink, NUM(0.0), NUM(1.0));
     REAL least = clamp((far - chord.a) * (chord.b - far) * chord.shrink, NUM(0.0), NUM(1.0));
-    sum += chord.strength * density_value(KERNEL, NUM(1.0) - (high ? most : least));
-    size += abs(chord.strength) * density_value(KERNEL, NUM(1.0) - most);
-    margin += abs(chord.strength) * density_slope_bound(KERNEL, most) * chord_reach(chord, to);
+    kept_add(sum, chord.strength * density_value(KERNEL, NUM(1.0) - (high ? most : least)));
+    kept_add(size, abs(chord.strength) * density_value(KERNEL, NUM(1.0) - most));
+    kept_add(margin, abs(chord.strength) * density_slope_bound(KERNEL, most) * chord_reach(chord, to));
 }
 
 // Adds it to [s, s + h], [s, s + h/4], ... A loop would cost a driver's count of rounds (loops.glsl) six for each ball.
@@ -57,8 +57,8 @@ REAL leap_clear(REAL s, REAL h, REAL side, out REAL stop)
     }
     stop = LEAP_STOP;
     for (int k = 0; k < LEAPS; k++) {
-        REAL doubt = TAU * leap_margin[k] + LEAP_SUM * count * leap_size[k];
-        if (side * (leap_sum[k] - level.x) > doubt) return s + h > stop ? s + h : s;
+        REAL doubt = TAU * kept(leap_margin[k]) + LEAP_SUM * count * kept(leap_size[k]);
+        if (side * (kept(leap_sum[k]) - level.x) > doubt) return s + h > stop ? s + h : s;
         h *= NUM(0.25);
     }
 #if KERNEL > DENSITY_WYVILL

@@ -19,6 +19,19 @@ const float SOLVE_TOLERANCE = 1.0e-6;
 const float SETTLED = 4.0e-6; // of a hit's distance, what rounding may move it by
 #endif
 #define NUM(x) REAL(x)
+
+// What an array keeps of a number: a driver was seen to hold arrays of doubles that are indexed by a variable as floats (NVIDIA
+// 580.159), and a certain answer by them was none.
+#ifdef MNS_DOUBLE
+#define KEPT uvec2
+KEPT keep(REAL x) { return unpackDouble2x32(x); }
+REAL kept(KEPT x) { return packDouble2x32(x); }
+#else
+#define KEPT float
+#define keep(x) (x)
+#define kept(x) (x)
+#endif
+void kept_add(inout KEPT sum, REAL x) { sum = keep(kept(sum) + x); }
 #define DENSITY_FN
 
 // Larger than every ray parameter, small enough for products.

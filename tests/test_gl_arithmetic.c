@@ -16,29 +16,34 @@
 #include <cmocka.h>
 
 enum { PAIRS = 8192, GROUP = 64 };
-enum { SUM, PRODUCT, TWICE, QUOTIENT, FIFTH, ROOT, UNIT, OPERATIONS };
+enum { SUM, PRODUCT, TWICE, QUOTIENT, FIFTH, ROOT, UNIT, ARRAY, OPERATIONS };
 
-static const char *const names[OPERATIONS] = {"a + b", "a b",       "a b - b b",    "a / b",
-                                              "a / 5", "root of a", "1 / root of a"};
+static const char *const names[OPERATIONS] = {"a + b", "a b",       "a b - b b",     "a / b",
+                                              "a / 5", "root of a", "1 / root of a", "a kept in an array"};
 /* Units in the last place, of the larger product where two are subtracted. */
-static const double allowed[OPERATIONS] = {0, 0, 1, 2.5, 2.5, 4, 6};
+static const double allowed[OPERATIONS] = {0, 0, 1, 2.5, 2.5, 4, 6, 0};
 
 static const char compute_main[] =
     "layout(local_size_x = 64) in;\n"
     "layout(std430, binding = 0) readonly buffer Pairs { REAL pair[]; };\n"
     "layout(std430, binding = 1) writeonly buffer Results { REAL result[]; };\n"
+    "layout(location = 0) uniform uint result_turn;\n"
     "void main()\n"
     "{\n"
     "    uint i = gl_GlobalInvocationID.x;\n"
     "    REAL a = pair[2u * i], b = pair[2u * i + 1u];\n"
     "    precise REAL sum = a + b, product = a * b, twice = a * b - b * b;\n"
-    "    result[7u * i] = sum;\n"
-    "    result[7u * i + 1u] = product;\n"
-    "    result[7u * i + 2u] = twice;\n"
-    "    result[7u * i + 3u] = a / b;\n"
-    "    result[7u * i + 4u] = a / NUM(5.0);\n"
-    "    result[7u * i + 5u] = sqrt(a);\n"
-    "    result[7u * i + 6u] = NUM(1.0) / sqrt(a);\n"
+    "    result[8u * i] = sum;\n"
+    "    result[8u * i + 1u] = product;\n"
+    "    result[8u * i + 2u] = twice;\n"
+    "    result[8u * i + 3u] = a / b;\n"
+    "    result[8u * i + 4u] = a / NUM(5.0);\n"
+    "    result[8u * i + 5u] = sqrt(a);\n"
+    "    result[8u * i + 6u] = NUM(1.0) / sqrt(a);\n"
+    "    KEPT array[8];\n"
+    "    for (int k = 0; k < 8; k++) array[k] = keep(NUM(0.0));\n"
+    "    kept_add(array[i & 7u], a);\n"
+    "    result[8u * i + 7u] = kept(array[(i + result_turn) & 7u]);\n"
     "}\n";
 
 static const char *embedded(const char *name)
@@ -88,9 +93,9 @@ static void run(const GladGLContext *gl, bool single, const void *pair, void *re
 /* The answers, rounded once where C can; for floats from doubles. */
 static double answer(int operation, double a, double b, bool single)
 {
-    double wanted[] = {a + b,      a * b, single ? (float)(a * b) - (double)(float)(b * b) : a * b - b * b,
-                       a / b,      a / 5, sqrt(a),
-                       1 / sqrt(a)};
+    double wanted[] = {a + b,       a * b, single ? (float)(a * b) - (double)(float)(b * b) : a * b - b * b,
+                       a / b,       a / 5, sqrt(a),
+                       1 / sqrt(a), a};
     return single ? (float)wanted[operation] : wanted[operation];
 }
 
