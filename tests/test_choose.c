@@ -41,6 +41,8 @@ static void expect_choice(const char *generator, mns_options options, const mns_
     mns_field_destroy(field);
 }
 
+static const char card[] = "auto: a card would have to sort the lists that it gathers";
+
 static void the_driver_decides(void **state)
 {
     (void)state;
@@ -50,21 +52,9 @@ static void the_driver_decides(void **state)
         for (int moved = 0; moved < 2; moved++) {
             const mns_options options = {.moved = moved};
             expect_choice(generators[i], options, &scene_llvmpipe, MNS_METHOD_TILE, software);
-            expect_choice(generators[i], options, &gpu, MNS_METHOD_LIST, "auto: a GPU rasterises the balls");
-            expect_choice(generators[i], options, NULL, MNS_METHOD_LIST, "auto: a GPU rasterises the balls");
+            expect_choice(generators[i], options, &gpu, MNS_METHOD_TILE, card);
+            expect_choice(generators[i], options, NULL, MNS_METHOD_TILE, card);
         }
-}
-
-/* Lists may keep every ball twice: 16 bytes a ball with a radius each. */
-static void so_many_balls_that_blocks_are_small(void **state)
-{
-    (void)state;
-    mns_limits small = gpu;
-    small.max_storage_block = 32 * 1000;
-    expect_choice("mixed:1000", (mns_options){0}, &small, MNS_METHOD_LIST,
-                  "auto: a GPU rasterises the balls");
-    expect_choice("mixed:1001", (mns_options){0}, &small, MNS_METHOD_TILE,
-                  "auto: this driver's blocks do not hold the balls twice");
 }
 
 /* Trees are no faster there (docs/decisions.md, Machines). */
@@ -95,8 +85,7 @@ static void what_one_method_alone_can_do_decides_first(void **state)
                       "auto: gathered lists alone are shuffled");
         expect_choice(NULL, (mns_options){.method = MNS_METHOD_BVH}, limits[i], MNS_METHOD_BVH, "asked for");
     }
-    expect_choice(NULL, (mns_options){.solver = MNS_SOLVER_CUBIC}, &gpu, MNS_METHOD_LIST,
-                  "auto: a GPU rasterises the balls");
+    expect_choice(NULL, (mns_options){.solver = MNS_SOLVER_CUBIC}, &gpu, MNS_METHOD_TILE, card);
     expect_choice(NULL, (mns_options){.solver = MNS_SOLVER_CUBIC}, &scene_llvmpipe, MNS_METHOD_TILE,
                   "auto: a software renderer casts sooner than it rasterises");
 }
@@ -122,7 +111,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_driver_decides),
-        cmocka_unit_test(so_many_balls_that_blocks_are_small),
         cmocka_unit_test(fields_of_any_size_and_thickness_are_tiled),
         cmocka_unit_test(what_one_method_alone_can_do_decides_first),
         cmocka_unit_test(what_no_method_can_do_together_is_refused),

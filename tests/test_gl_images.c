@@ -4,6 +4,7 @@
 #include "support/draw_fixture.h"
 #include "support/image_table.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -20,6 +21,8 @@ typedef struct fixture {
     draw_fixture *draw;
     image_table table;
 } fixture;
+
+#define CARD_PSNR 70.0 /* decibels */
 
 static int setup(void **state)
 {
@@ -127,7 +130,10 @@ static bool draw_row(fixture *f, const image_row *row, image_scene *s, const cha
     s->options.method = method_by_name(method);
     forget_report(row->name, method);
     mns_image *image = draw_scene(f, s);
-    bool same = image_judge(row, tolerance, truth, image, why);
+    image_row here = *row;
+    /* between the passes colours are halves, which a card may round either way */
+    if (!mns_renderer_limits(f->draw->renderer)->is_software) here.psnr = fmin(here.psnr, CARD_PSNR);
+    bool same = image_judge(&here, tolerance, truth, image, why);
     if (same)
         print_message("%s by %s: %s\n", row->name, method, why);
     else

@@ -21,15 +21,11 @@ plan_choice plan_required(const mns_options *options)
     return choice(MNS_METHOD_AUTO, NULL);
 }
 
-plan_choice plan_choose(const mns_options *options, const mns_limits *limits, const mns_field *field)
+plan_choice plan_choose(const mns_options *options, const mns_limits *limits)
 {
     plan_choice required = plan_required(options);
     if (required.method != MNS_METHOD_AUTO) return required;
     if (limits->is_software)
         return choice(MNS_METHOD_TILE, "auto: a software renderer casts sooner than it rasterises");
-    /* Lists may keep each ball twice (plan_check_limits). */
-    size_t floats = 3 + (field->p.radius != NULL) + (field->p.strength != NULL);
-    if (field->p.count > limits->max_storage_block / (2 * sizeof(float) * floats))
-        return choice(MNS_METHOD_TILE, "auto: this driver's blocks do not hold the balls twice");
-    return choice(MNS_METHOD_LIST, "auto: a GPU rasterises the balls");
+    return choice(MNS_METHOD_TILE, "auto: a card would have to sort the lists that it gathers");
 }

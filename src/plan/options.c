@@ -58,11 +58,11 @@ static int default_slots(const mns_options *options, const mns_limits *limits)
     return limits->is_software || options->method == MNS_METHOD_FBVH ? 64 : 24;
 }
 
-mns_status plan_options(const mns_options *options, const mns_field *field, mns_plan *plan, mns_error *error)
+mns_status plan_options(const mns_options *options, mns_plan *plan, mns_error *error)
 {
     mns_options *o = &plan->options;
     *o = options ? *options : (mns_options){0};
-    plan_choice chosen = plan_choose(o, &plan->limits, field);
+    plan_choice chosen = plan_choose(o, &plan->limits);
     o->method = chosen.method;
     plan->method_reason = chosen.reason;
     mns_status status = check_options(o, error);

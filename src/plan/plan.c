@@ -295,7 +295,7 @@ mns_status plan_make(const mns_field *field, const mns_view *view, const mns_loo
     mns_plan *plan = calloc(1, sizeof *plan);
     if (!plan) return status_no_memory(error, "while planning a frame");
     plan->limits = resolve_limits(limits);
-    mns_status status = plan_options(options, field, plan, error);
+    mns_status status = plan_options(options, plan, error);
     if (!status) status = mns_view_resolve(view, field, &plan->view, error);
     if (status) goto fail;
     view_basis(&plan->view, &plan->frame);

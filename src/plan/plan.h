@@ -156,11 +156,11 @@ typedef struct plan_choice {
 plan_choice plan_required(const mns_options *options);
 /* The method that is quickest by what is known before it is drawn. Never AUTO, never the reference by itself.
  */
-plan_choice plan_choose(const mns_options *options, const mns_limits *limits, const mns_field *field);
+plan_choice plan_choose(const mns_options *options, const mns_limits *limits);
 
 /* Checks the options and fills plan->options, of whose zeros none is left, and why the method is that one;
  * needs the limits. Errors: USAGE. */
-mns_status plan_options(const mns_options *options, const mns_field *field, mns_plan *plan, mns_error *error);
+mns_status plan_options(const mns_options *options, mns_plan *plan, mns_error *error);
 
 /* Appends to what is left out; both strings are literals. */
 void plan_leave_out(mns_plan *plan, const char *part, const char *reason);
