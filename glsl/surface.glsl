@@ -86,7 +86,7 @@ Surface surface_at(Ray ray, REAL t)
     surface.normal = size > NUM(0.0) ? -gradient / size : -ray.way;
     surface.color = weight > 0.0 ? color / weight : vec4(0.0);
 #ifdef MATERIALS
-    if (color.a == weight) surface.color.a = 1.0; // whatever a driver's division makes of it
+    if (weight > 0.0 && color.a == weight) surface.color.a = 1.0; // whatever a driver's division makes of it
 #endif
     return surface;
 }

@@ -269,7 +269,8 @@ typedef struct mns_mesh_info {
     size_t triangles, corners; /* corners in one place are one */
     size_t dropped;            /* triangles without an area */
     double lo[3], hi[3];
-    uint64_t fingerprint; /* of the triangles' places: another mesh has another */
+    uint64_t fingerprint; /* of the triangles in their order: where two are equal so are, as good as surely,
+                             the meshes */
 } mns_mesh_info;
 
 /* Reads a mesh file and tells what is in it. Errors: USAGE, IO, INPUT, MEMORY, UNSUPPORTED (too many

@@ -126,6 +126,7 @@ static void compare(gl_fixture *fixture, bool single)
         const double *of = &pair[2 * (i / OPERATIONS)];
         double got = single ? (double)result_f[i] : result[i], want = answer(operation, of[0], of[1], single);
         double size = operation == TWICE ? fmax(of[0] * of[1], of[1] * of[1]) : want;
+        if (!isfinite(got)) fail_msg("%s of %g, %g is %g", names[operation], of[0], of[1], got);
         worst[operation] = fmax(worst[operation], fabs(got - want) / unit_of(size, single));
     }
     for (int operation = 0; operation < OPERATIONS; operation++)

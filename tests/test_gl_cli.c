@@ -238,6 +238,32 @@ static void scenes_are_drawn_and_options_prevail(void **state)
     json_decref(root);
 }
 
+/* speed is 3 and 7, r 1 and 0.5: within the scene's range no ball would have any of the second material by r.
+ */
+static void a_scenes_blend_range_is_its_own_columns(void **state)
+{
+    cli *c = *state;
+    cli_write(
+        c, "s.json",
+        "{\"input\": \"two.csv\", \"size\": [24, 16], \"blend\": {\"by\": \"speed\", \"range\": [2, 8], "
+        "\"color\": \"#ff0000\"}}");
+    cli_run(c, "render s.json -o own.png --blend-by r --backend %s", backend());
+    cli_expect(c, 0);
+    cli_run(c, "render s.json -o same.png --blend-range 0:1 --blend-by r --backend %s", backend());
+    cli_expect(c, 0);
+    cli_run(c, "render s.json -o other.png --blend-range 2:8 --blend-by r --backend %s", backend());
+    cli_expect(c, 0);
+    size_t size[3];
+    char *own = cli_read(c, "own.png", &size[0]), *same = cli_read(c, "same.png", &size[1]);
+    char *other = cli_read(c, "other.png", &size[2]);
+    assert_int_equal(size[0], size[1]);
+    assert_memory_equal(own, same, size[0]);
+    assert_true(size[2] != size[0] || memcmp(own, other, size[0]) != 0);
+    free(own);
+    free(same);
+    free(other);
+}
+
 static void guessed_radii_are_noted(void **state)
 {
     cli *c = *state;
@@ -294,6 +320,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(sequences_are_numbered_by_the_inputs_index, setup, teardown),
         cmocka_unit_test_setup_teardown(a_frame_is_the_same_picture_in_whatever_run, setup, teardown),
         cmocka_unit_test_setup_teardown(scenes_are_drawn_and_options_prevail, setup, teardown),
+        cmocka_unit_test_setup_teardown(a_scenes_blend_range_is_its_own_columns, setup, teardown),
         cmocka_unit_test_setup_teardown(guessed_radii_are_noted, setup, teardown),
         cmocka_unit_test_setup_teardown(a_frame_that_fails_leaves_the_ones_before_it_whole, setup, teardown),
         cmocka_unit_test_setup_teardown(a_terminal_gets_a_progress_line, setup, teardown),

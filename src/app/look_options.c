@@ -349,11 +349,13 @@ mns_status option_blend_by(app_options *o, const char *name, const char *text, m
         o->look.blend = (mns_blend){.by = NULL};
     else
         o->look.blend.by = text;
+    if (o->blend_range_is_scenes) memset(o->look.blend.range, 0, sizeof o->look.blend.range);
     return MNS_OK;
 }
 
 mns_status option_blend_range(app_options *o, const char *name, const char *text, mns_error *error)
 {
+    o->blend_range_is_scenes = false;
     return parse_range(name, text, o->look.blend.range, error);
 }
 

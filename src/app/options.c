@@ -174,6 +174,7 @@ static mns_status take_names(command_line *line, app_options *o, mns_error *erro
         o->inputs = o->scene->inputs;
         o->input_count = o->scene->input_count;
         o->range_is_scenes = o->look.set & MNS_LOOK_RANGE;
+        o->blend_range_is_scenes = true;
     }
     if (kept) {
         o->inputs = line->names;

@@ -43,6 +43,7 @@ typedef struct app_options {
     bool no_panel;                 /* view */
     double patience;               /* view, seconds; 0: the default */
     bool range_is_scenes;          /* look.range comes from the scene, and holds for its color_by only */
+    bool blend_range_is_scenes;    /* and look.blend.range, for its blend.by */
     bool help;                     /* was asked for and printed: nothing more to do */
     mns_scene *scene;              /* of a .json argument */
     const char **names;

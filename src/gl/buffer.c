@@ -67,6 +67,7 @@ void gl_buffer_fetch(gl_device *device, GLuint id, size_t size, void *data)
 {
     const GladGLContext *gl = &device->gl;
     bool made = device->reading;
+    memset(data, 0, size); /* where the driver fails */
     if (!made) gl->GenBuffers(1, &device->reading);
     gl->BindBuffer(GL_SHADER_STORAGE_BUFFER, id);
     gl->BindBuffer(GL_ARRAY_BUFFER, device->reading);

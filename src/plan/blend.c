@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Of a ball's place between the materials, either way: means of such floats are numbers. */
-#define PLACE_MOST 6e4
+/* Of a ball's place between the materials, either way: sums of such floats, weighted, are numbers. */
+#define PLACE_MOST 1e30
 
 static bool is_given(const mns_blend *b, unsigned bit, const double *v, int count)
 {

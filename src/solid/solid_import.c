@@ -11,7 +11,8 @@
 #include <string.h>
 
 /* assimp has one text for the last failure of any thread, and writes it unguarded: an import has to end, and
- * its text be copied, before the next one begins. It guards that text alone. */
+ * its text be copied, before the next one begins. The lock is for that text alone, and a host that calls
+ * assimp itself does not take it. */
 static pthread_mutex_t importing = PTHREAD_MUTEX_INITIALIZER;
 
 /* ---- A file, as assimp asks for it ---- */
