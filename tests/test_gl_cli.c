@@ -243,15 +243,16 @@ static void scenes_are_drawn_and_options_prevail(void **state)
 static void a_scenes_blend_range_is_its_own_columns(void **state)
 {
     cli *c = *state;
+    cli_write(c, "both.csv", "x,y,z,radius,speed,clay\n0,0,0,1,3,0\n1,0,0,1,7,1\n");
     cli_write(
         c, "s.json",
-        "{\"input\": \"two.csv\", \"size\": [24, 16], \"blend\": {\"by\": \"speed\", \"range\": [2, 8], "
+        "{\"input\": \"both.csv\", \"size\": [24, 16], \"blend\": {\"by\": \"speed\", \"range\": [2, 8], "
         "\"color\": \"#ff0000\"}}");
-    cli_run(c, "render s.json -o own.png --blend-by r --backend %s", backend());
+    cli_run(c, "render s.json -o own.png --blend-by clay --backend %s", backend());
     cli_expect(c, 0);
-    cli_run(c, "render s.json -o same.png --blend-range 0:1 --blend-by r --backend %s", backend());
+    cli_run(c, "render s.json -o same.png --blend-range 0:1 --blend-by clay --backend %s", backend());
     cli_expect(c, 0);
-    cli_run(c, "render s.json -o other.png --blend-range 2:8 --blend-by r --backend %s", backend());
+    cli_run(c, "render s.json -o other.png --blend-range 2:8 --blend-by clay --backend %s", backend());
     cli_expect(c, 0);
     size_t size[3];
     char *own = cli_read(c, "own.png", &size[0]), *same = cli_read(c, "same.png", &size[1]);
