@@ -205,7 +205,8 @@ static void write_sheet(mesh_path path)
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     for (int i = 0; i < SIDE * SIDE; i++) {
-        double x = 4.0 * (i % SIDE) / SIDE - 2, z = 4.0 * (i / SIDE) / SIDE - 2;
+        const int column = i % SIDE, row = i / SIDE;
+        double x = 4.0 * column / SIDE - 2, z = 4.0 * row / SIDE - 2;
         fprintf(file, "v %.6f %.6f %.6f\n", x, -0.4 + 0.1 * sin(31 * x) * sin(37 * z), z);
     }
     for (int i = 1; i < SIDE * (SIDE - 1); i++)
