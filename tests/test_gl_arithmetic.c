@@ -2,7 +2,7 @@
  * marked precise are rounded once, and that quotients and roots are off by no more than a few units in the
  * last place. GLSL promises so much of floats (4.30, section 4.7.1); of doubles it promises less than every
  * driver was seen to give. */
-#include "gl/glsl_text.h"
+#include "support/gl_compute.h"
 #include "support/gl_fixture.h"
 
 #include <float.h>
@@ -46,48 +46,13 @@ static const char compute_main[] =
     "    result[8u * i + 7u] = kept(array[(i + result_turn) & 7u]);\n"
     "}\n";
 
-static const char *embedded(const char *name)
-{
-    for (const glsl_text *file = glsl_texts; file->name; file++)
-        if (!strcmp(file->name, name)) return file->text;
-    fail_msg("%s is not embedded", name);
-    return NULL;
-}
-
-static GLuint compile(const GladGLContext *gl, bool single)
-{
-    char log[512] = "";
-    const char *const text[] = {single ? "#version 430 core\n" : "#version 430 core\n#define MNS_DOUBLE 1\n",
-                                embedded("real.glsl"), compute_main};
-    GLuint shader = gl->CreateShader(GL_COMPUTE_SHADER), program = gl->CreateProgram();
-    gl->ShaderSource(shader, 3, text, NULL);
-    gl->CompileShader(shader);
-    gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
-    gl->AttachShader(program, shader);
-    gl->LinkProgram(program);
-    gl->DeleteShader(shader);
-    GLint linked = GL_FALSE;
-    gl->GetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (!linked) fail_msg("%s", log);
-    return program;
-}
-
 static void run(const GladGLContext *gl, bool single, const void *pair, void *result)
 {
-    GLsizeiptr size = PAIRS * (GLsizeiptr)(single ? sizeof(float) : sizeof(double));
-    GLuint program = compile(gl, single), buffer[2];
-    gl->GenBuffers(2, buffer);
-    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer[0]);
-    gl->BufferData(GL_SHADER_STORAGE_BUFFER, 2 * size, pair, GL_STATIC_DRAW);
-    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffer[1]);
-    gl->BufferData(GL_SHADER_STORAGE_BUFFER, OPERATIONS * size, NULL, GL_STATIC_READ);
-    gl->UseProgram(program);
-    gl->DispatchCompute(PAIRS / GROUP, 1, 1);
-    gl->MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, OPERATIONS * size, result);
-    gl->UseProgram(0);
-    gl->DeleteBuffers(2, buffer);
-    gl->DeleteProgram(program);
+    const size_t size = PAIRS * (single ? sizeof(float) : sizeof(double));
+    const char *const text[] = {single ? "#version 430 core\n" : "#version 430 core\n#define MNS_DOUBLE 1\n",
+                                gl_compute_embedded("real.glsl"), compute_main};
+    gl_compute_run(gl, gl_compute_program(gl, text, 3), PAIRS / GROUP, pair, 2 * size, result,
+                   OPERATIONS * size);
 }
 
 /* The answers, rounded once where C can; for floats from doubles. */

@@ -2,7 +2,7 @@
  * and as double; and its slopes, bounds and core radii must agree with its values. */
 #include "field/kernel.h"
 #include "gl/context.h"
-#include "gl/glsl_text.h"
+#include "support/gl_compute.h"
 #include "support/gl_fixture.h"
 
 #include <float.h>
@@ -77,51 +77,18 @@ static void fill_arguments(double *argument, bool single)
     }
 }
 
-static const char *embedded(const char *name)
-{
-    for (const glsl_text *file = glsl_texts; file->name; file++)
-        if (!strcmp(file->name, name)) return file->text;
-    fail_msg("%s is not embedded", name);
-    return NULL;
-}
-
-static GLuint compile(const GladGLContext *gl, int kernel, bool single)
-{
-    char head[128], log[512] = "";
-    snprintf(head, sizeof head, "#version 430 core\n#define KERNEL %d\n%s", kernel,
-             single ? "" : "#define MNS_DOUBLE 1\n");
-    const char *const text[] = {head, embedded("real.glsl"), embedded("density.glsl"), compute_main};
-    GLuint shader = gl->CreateShader(GL_COMPUTE_SHADER), program = gl->CreateProgram();
-    gl->ShaderSource(shader, 4, text, NULL);
-    gl->CompileShader(shader);
-    gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
-    gl->AttachShader(program, shader);
-    gl->LinkProgram(program);
-    gl->DeleteShader(shader);
-    GLint linked = GL_FALSE;
-    gl->GetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (!linked) fail_msg("%s", log);
-    return program;
-}
-
 /* Runs the functions of one kernel on the driver: `argument` and `result` are floats where `single`, else
  * doubles. */
 static void run(const GladGLContext *gl, int kernel, bool single, const void *argument, void *result)
 {
-    GLsizeiptr size = ARGUMENTS * (GLsizeiptr)(single ? sizeof(float) : sizeof(double));
-    GLuint program = compile(gl, kernel, single), buffer[2];
-    gl->GenBuffers(2, buffer);
-    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer[0]);
-    gl->BufferData(GL_SHADER_STORAGE_BUFFER, size, argument, GL_STATIC_DRAW);
-    gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffer[1]);
-    gl->BufferData(GL_SHADER_STORAGE_BUFFER, FUNCTIONS * size, NULL, GL_STATIC_READ);
-    gl->UseProgram(program);
-    gl->DispatchCompute(ARGUMENTS / GROUP, 1, 1);
-    gl->MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    gl->GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, FUNCTIONS * size, result);
-    gl->UseProgram(0);
-    gl->DeleteBuffers(2, buffer);
-    gl->DeleteProgram(program);
+    const size_t size = ARGUMENTS * (single ? sizeof(float) : sizeof(double));
+    char head[128];
+    snprintf(head, sizeof head, "#version 430 core\n#define KERNEL %d\n%s", kernel,
+             single ? "" : "#define MNS_DOUBLE 1\n");
+    const char *const text[] = {head, gl_compute_embedded("real.glsl"), gl_compute_embedded("density.glsl"),
+                                compute_main};
+    gl_compute_run(gl, gl_compute_program(gl, text, 4), ARGUMENTS / GROUP, argument, size, result,
+                   FUNCTIONS * size);
 }
 
 static double in_c(int function, int kernel, double u)

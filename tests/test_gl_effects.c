@@ -1,8 +1,8 @@
 /* Effects in pictures: what does nothing changes nothing, the truth's shading is the shade pass's, terms
  * reach the image; and the texts that GLSL and C share give both the same numbers. */
 #include "effects/shared.h"
-#include "gl/glsl_text.h"
 #include "support/draw_fixture.h"
+#include "support/gl_compute.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -49,33 +49,12 @@ static const char compute_main[] =
     "    result[at + 15u] = floatBitsToUint(optics_bend(1.0 + w, v));\n"
     "}\n";
 
-static const char *embedded(const char *name)
-{
-    for (const glsl_text *file = glsl_texts; file->name; file++)
-        if (!strcmp(file->name, name)) return file->text;
-    fail_msg("%s is not embedded", name);
-    return NULL;
-}
-
 static void run(const GladGLContext *gl, uint32_t *result)
 {
-    const char *const text[] = {"#version 430 core\n#define UINT uint\n",
-                                embedded("real.glsl"),
-                                embedded("samples.glsl"),
-                                embedded("optics.glsl"),
-                                embedded("sky.glsl"),
-                                compute_main};
-    char log[512] = "";
-    GLuint shader = gl->CreateShader(GL_COMPUTE_SHADER), program = gl->CreateProgram(), buffer;
-    gl->ShaderSource(shader, 6, text, NULL);
-    gl->CompileShader(shader);
-    gl->GetShaderInfoLog(shader, sizeof log, NULL, log);
-    gl->AttachShader(program, shader);
-    gl->LinkProgram(program);
-    gl->DeleteShader(shader);
-    GLint linked = GL_FALSE;
-    gl->GetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (!linked) fail_msg("%s", log);
+    const char *const text[] = {"#version 430 core\n#define UINT uint\n", gl_compute_embedded("real.glsl"),
+                                gl_compute_embedded("samples.glsl"),      gl_compute_embedded("optics.glsl"),
+                                gl_compute_embedded("sky.glsl"),          compute_main};
+    GLuint program = gl_compute_program(gl, text, 6), buffer;
     gl->GenBuffers(1, &buffer);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, buffer);
     gl->BufferData(GL_SHADER_STORAGE_BUFFER, CASES * RESULTS * sizeof *result, NULL, GL_STATIC_READ);
