@@ -69,23 +69,25 @@ float slots_fill(Ray ray, Leaf leaf, out float stop)
         Chord chord;
         bool holds = chord_cut(ray, ball_get(reference & REFERENCE_BALL), chord);
         holds = holds && chord.b > leaf.begin && chord.a < leaf.end;
+        // Put down before it is known to be held: a wide machine stores lane by lane, and branches that all lanes take alike are cheap.
+        int slot = min(slot_count, SLOTS - 1);
+        if (slot_count < SLOTS) {
+            slot_a[slot] = chord.a;
+            slot_b[slot] = chord.b;
+#ifdef RADII
+            slot_shrink[slot] = chord.shrink;
+#endif
+#ifdef STRENGTHS
+            slot_q[slot] = chord.strength;
+#endif
+            slot_ball[slot] = reference;
+        }
         if (holds) {
             float middle = clamp(0.5 * (chord.a + chord.b), leaf.begin, leaf.end);
             float w = clamp((middle - chord.a) * (chord.b - middle) * chord.shrink, 0.0, 1.0);
             most += max(chord.strength, 0.0) * density_value(KERNEL, 1.0 - w);
             margin += abs(chord.strength) * density_slope_bound(KERNEL, w) * chord_reach(chord, leaf.end);
             stop = min(stop, chord.a > leaf.begin ? chord.a : chord.b);
-            if (slot_count < SLOTS) {
-                slot_a[slot_count] = chord.a;
-                slot_b[slot_count] = chord.b;
-#ifdef RADII
-                slot_shrink[slot_count] = chord.shrink;
-#endif
-#ifdef STRENGTHS
-                slot_q[slot_count] = chord.strength;
-#endif
-                slot_ball[slot_count] = reference;
-            }
             slot_count++;
         }
     }

@@ -30,10 +30,12 @@ static mns_status light_region(draw *d, list_region region, mns_error *error)
 {
     mns_renderer *r = d->r;
     shade_walks walks;
-    shade_effects_begin(&r->passes, &r->device, d->program, region, &walks);
+    mns_status status =
+        shade_effects_begin(&r->effects, &r->passes, &r->device, d->plan, d->program, region, &walks, error);
+    if (status) return status;
     while (walks.waiting || walks.waiting_wide) {
         if (!walks.waiting) {
-            mns_status status = draw_late_program(d, SHADER_EFFECTS_RESOLVE, MNS_PHASE_EFFECTS, error);
+            status = draw_late_program(d, SHADER_EFFECTS_RESOLVE, MNS_PHASE_EFFECTS, error);
             if (!status) status = draw_tree_low(d, MNS_PHASE_EFFECTS, error);
             if (status) return status;
         }

@@ -18,11 +18,14 @@ enum {
     PATH_LIGHTS = 256,
     STORE_WALK = 11,
     STORE_WAIT = 3,
-    GROUP = 64
+    GROUP = 64,
+    BINDING_STORE = 7,
+    BLOCK_WIDTH = 4, /* as glsl/effects_list.glsl has them */
+    BLOCK_HEIGHT = 2
 };
 
 #define ENTRY_BYTES ((size_t)16)
-#define STORE_BYTES ((size_t)64 << 20) /* of walks that wait: a larger frame is lit in parts */
+#define STORE_BYTES ((size_t)128 << 20) /* of walks that wait: a larger frame is lit in parts */
 
 /* Beyond this distance from the field a light is moved nearer, in its direction and in proportion: floats
  * square it, and nothing of it is seen to change. */
@@ -239,12 +242,9 @@ mns_status shade_effects_reserve(shade_effects *e, list_passes *p, gl_device *de
     size_t most = plan->limits.max_storage_block;
     if (!(plan->features & FEATURE_RAYS)) return MNS_OK;
     e->room = pixels;
-    mns_status status =
-        gl_buffer_reserve(device, &e->store, "light's ways", pixels * walk_bytes(plan), most, error);
     size_t entries = LISTS * pixels * ENTRY_BYTES;
-    return status ? status
-                  : gl_buffer_reserve(device, &p->redo, "list of pixels to resolve",
-                                      sizeof(list_counts) + entries, most, error);
+    return gl_buffer_reserve(device, &p->redo, "list of pixels to resolve", sizeof(list_counts) + entries,
+                             most, error);
 }
 
 void shade_effects_bind(shade_effects *e, trace_passes *t, list_passes *p, gl_device *device,
@@ -256,10 +256,7 @@ void shade_effects_bind(shade_effects *e, trace_passes *t, list_passes *p, gl_de
         GLuint texture;
         GLenum format;
     } written[] = {{planes->lit, GL_RGBA32F}, {planes->terms, GL_RGBA32F}, {planes->settled, GL_R32F}};
-    if (plan->features & FEATURE_RAYS) {
-        trace_bind(t, p, device, plan);
-        gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 7, e->store.id);
-    }
+    if (plan->features & FEATURE_RAYS) trace_bind(t, p, device, plan);
     gl->BindBufferBase(GL_SHADER_STORAGE_BUFFER, 3, p->redo.id);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 0, p->view.id);
     gl->BindBufferBase(GL_UNIFORM_BUFFER, 1, e->block.id);
@@ -303,8 +300,19 @@ static void dispatch(gl_device *device, size_t count)
     device->gl.DispatchCompute(groups < most ? groups : most, (groups + most - 1) / most, 1);
 }
 
-void shade_effects_begin(list_passes *p, gl_device *device, const GLuint program[SHADER_COUNT],
-                         list_region region, shade_walks *walks)
+/* Room for those walks alone that see a surface. */
+static mns_status keep_walks(shade_effects *e, gl_device *device, const mns_plan *plan, size_t walks,
+                             mns_error *error)
+{
+    mns_status status = gl_buffer_reserve(device, &e->store, "light's ways", walks * walk_bytes(plan),
+                                          plan->limits.max_storage_block, error);
+    if (!status) device->gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, BINDING_STORE, e->store.id);
+    return status;
+}
+
+mns_status shade_effects_begin(shade_effects *e, list_passes *p, gl_device *device, const mns_plan *plan,
+                               const GLuint program[SHADER_COUNT], list_region region, shade_walks *walks,
+                               mns_error *error)
 {
     const GladGLContext *gl = &device->gl;
     const list_counts none = {0};
@@ -313,14 +321,18 @@ void shade_effects_begin(list_passes *p, gl_device *device, const GLuint program
     clear(p, device, &none);
     gl->UseProgram(program[SHADER_EFFECTS_LIST]);
     gl->Uniform4i(UNIFORM_REGION, region.x, region.y, region.x + region.width, region.y + region.height);
-    gl->DispatchCompute((GLuint)(region.width + 7) / 8, (GLuint)(region.height + 7) / 8, 1);
+    const int wide = 8 * BLOCK_WIDTH, high = 8 * BLOCK_HEIGHT; /* pixels a group */
+    gl->DispatchCompute((GLuint)((region.width + wide - 1) / wide),
+                        (GLuint)((region.height + high - 1) / high), 1);
     trace_finish(p, device, &counts);
     walks->waiting = counts.redo;
-    if (!counts.redo || program[SHADER_EFFECTS]) return;
+    if (!counts.redo) return MNS_OK;
+    if (program[SHADER_EFFECTS]) return keep_walks(e, device, plan, counts.redo, error);
     gl->UseProgram(program[SHADER_EFFECTS_PLAIN]);
     dispatch(device, counts.redo);
     trace_finish(p, device, &counts);
     walks->waiting = 0;
+    return MNS_OK;
 }
 
 /* Bounds and casts take turns; what comes from doubles is tried by bounds first. */

@@ -52,7 +52,7 @@ mns_status shade_effects_send(shade_effects *e, gl_device *device, const mns_pla
                               const double jitter[2], int sample, mns_error *error);
 /* The most pixels that one region may have, so that every walk in it can wait. */
 size_t shade_effects_most(const mns_plan *plan);
-/* Room for the walks of so many pixels. Errors: MEMORY, UNSUPPORTED. */
+/* Room for the lists of so many pixels. Errors: MEMORY, UNSUPPORTED. */
 mns_status shade_effects_reserve(shade_effects *e, list_passes *p, gl_device *device, const mns_plan *plan,
                                  size_t pixels, mns_error *error);
 /* Binds all that the passes read and write; `shading` is filled by shade_send. */
@@ -60,9 +60,10 @@ void shade_effects_bind(shade_effects *e, trace_passes *t, list_passes *p, gl_de
                         const mns_plan *plan, const gl_buffer *shading, const shade_planes *planes);
 /* Fills the planes of `target` (lit, terms, settled) with what pixels have that see no surface. */
 void shade_effects_clear(gl_device *device, const mns_plan *plan, GLuint target);
-/* Begins the walks of a region's pixels. */
-void shade_effects_begin(list_passes *p, gl_device *device, const GLuint program[SHADER_COUNT],
-                         list_region region, shade_walks *walks);
+/* Begins the walks of a region's pixels. Errors: MEMORY, UNSUPPORTED. */
+mns_status shade_effects_begin(shade_effects *e, list_passes *p, gl_device *device, const mns_plan *plan,
+                               const GLuint program[SHADER_COUNT], list_region region, shade_walks *walks,
+                               mns_error *error);
 /* Goes on with all that wait in float; or where none does, with those that wait for doubles, for which
  * SHADER_EFFECTS_RESOLVE must be there. */
 void shade_effects_go_on(shade_effects *e, trace_passes *t, list_passes *p, gl_device *device,
