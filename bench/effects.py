@@ -13,8 +13,10 @@ import tempfile
 from common import CENTRE, camera, fail, machine, scene_path
 
 SIZE = os.environ.get("SIZE", "640x480")
+ONLY = os.environ.get("ONLY", "").split()  # scenes of the first table; none: all
 ROUNDS = 2  # of fbvh, which the goals are for; the others take their turn in the first
-REPEAT = 5 # of which the first two may wait for a compiler
+REPEAT = 5  # of which the first two may wait for a compiler
+REPEAT_SLOW = 3  # of frames of many seconds
 METHODS = ("list", "tile", "fbvh", "bvh")  # what finds the first hit; the tree of every ray after it is bvh's own, else the fitted one
 MIRROR = "--mirror 0.5 --reflections"
 # name: options ("LIGHT" is the scene's light), what its cost is over, the most it may be; all costs are in frames of plain casting by fbvh
@@ -91,7 +93,7 @@ def frames_of(program, scene):
         for name in SCENES[scene][0]:
             for method in methods_of(name, turn):
                 options = where + EFFECTS[name][0].replace("LIGHT", light).split()
-                stats = draw(program, scene, method, options)
+                stats = draw(program, scene, method, options, REPEAT_SLOW if name == SLOW else REPEAT)
                 times.setdefault((method, name), []).append(total(stats))
                 rays[name] = stats["counts"]["effects_rays"] / stats["counts"]["pixels_hit"]
                 renderer = stats["renderer"]
@@ -105,7 +107,8 @@ def verdict(value, most):
 def print_effects(program):
     """Tables 1 and 2 of the paper: frames a second, and what each effect costs in frames of plain casting by fbvh."""
     rows, renderer = [], ""
-    for scene, (names, published) in SCENES.items():
+    for scene in ONLY or SCENES:
+        names, published = SCENES[scene]
         ms, rays, renderer = frames_of(program, scene)
         unit = ms["fbvh", "cast"]
         for name in names:
@@ -118,8 +121,8 @@ def print_effects(program):
             if name == "hard shadows":
                 share += " of at least " + f"{SHARE_LEAST}: {'reached' if rays[name] >= SHARE_LEAST else 'missed'}"
             rows.append([f"`{scene}`", name, *cells, *(f"{cost[m]:.2f}" if m in cost else "" for m in METHODS), goal, paper, share])
-    print(f"{renderer}; {SIZE}, `poly3`, frames that stand still, in turn: medians of {REPEAT} frames, of `fbvh` of {ROUNDS} rounds of "
-          "them: milliseconds (frames a second). A cost is over the frame without the effect, of reflections over "
+    print(f"{renderer}; {SIZE}, `poly3`, frames that stand still, in turn: medians of {REPEAT} frames ({SLOW}: of {REPEAT_SLOW}), of `fbvh` "
+          f"of {ROUNDS} rounds of them: milliseconds (frames a second). A cost is over the frame without the effect, of reflections over "
           "that with shadows, in frames of plain casting by `fbvh`; the goal is for `fbvh`.\n")
     print("| scene | frame | " + " | ".join(f"`{m}`" for m in METHODS) + " | " + " | ".join(f"cost, `{m}`" for m in METHODS) +
           " | at most | published | rays a hit |\n|-|-|" + "-|" * (2 * len(METHODS) + 3))
@@ -133,30 +136,37 @@ def limit_ms(path, kind, mode):
     return float(re.search(r"trace med=([\d.]+)ms", said).group(1))
 
 
+def yardstick_times(program, name, file):
+    """Medians of a scene's frames, {mode: {"yardstick" or method: milliseconds}}, all in turn, and the renderer."""
+    kind, path = name[0], scene_path(file)
+    x, y, z = CENTRE[kind]
+    light = ["--light", f"point:{x + 2},{y + 3},{z + 2}", "--shadows"]
+    times, renderer = {}, ""
+    for _ in range(ROUNDS):
+        for mode, options in (("primary", []), ("shadow", light), ("mirror", [*light, *f"{MIRROR} 1".split()])):
+            taken = times.setdefault(mode, {m: [] for m in ("yardstick", *OURS)})
+            taken["yardstick"].append(limit_ms(path, kind, mode))
+            for method in OURS:
+                stats = draw(program, path, method, ["--kernel", "poly3", "--iso", "0.2", *camera(kind), *options])
+                taken[method].append(total(stats))
+                renderer = stats["renderer"]
+    return {mode: {m: statistics.median(ms) for m, ms in taken.items()} for mode, taken in times.items()}, renderer
+
+
 def print_yardstick(program):
     """Hard shadows of a point light, and a mirror with them, in turn with the yardstick's."""
     rows, renderer = [], ""
     for name, file in YARDSTICK.items():
-        kind, path = name[0], scene_path(file)
-        x, y, z = CENTRE[kind]
-        light = ["--light", f"point:{x + 2},{y + 3},{z + 2}", "--shadows"]
-        for mode, options in (("shadow", light), ("mirror", [*light, *f"{MIRROR} 1".split()])):
-            ours, theirs = {m: [] for m in OURS}, []
-            for _ in range(ROUNDS):
-                theirs.append(limit_ms(path, kind, mode))
-                for method in OURS:
-                    stats = draw(program, path, method, ["--kernel", "poly3", "--iso", "0.2", *camera(kind), *options])
-                    ours[method].append(total(stats))
-                    renderer = stats["renderer"]
-            unit = statistics.median(theirs)
-            ms = [statistics.median(ours[m]) for m in OURS]
-            best = min(ms) / unit
-            rows.append([name, mode, f"{unit:.1f}", *(f"{v:.1f}" for v in ms), f"{best:.2f}",
-                         "reached" if best <= MOST_OVER_YARDSTICK else "missed"])
+        ms, renderer = yardstick_times(program, name, file)
+        for mode, before in (("primary", None), ("shadow", "primary"), ("mirror", "shadow")):
+            best = min(ms[mode][m] for m in OURS) / ms[mode]["yardstick"]
+            cost = [f"{(ms[mode][m] - ms[before][m]) / ms['primary'][m]:.2f}" if before else "" for m in ("yardstick", "fbvh")]
+            told = "" if not before else "reached" if best <= MOST_OVER_YARDSTICK else "missed"
+            rows.append([name, "cast" if mode == "primary" else mode, *(f"{v:.1f}" for v in ms[mode].values()), f"{best:.2f}", told, *cost])
     print(f"{machine(renderer)}; {SIZE}, milliseconds of frames that stand still (the yardstick: tracing alone), medians of {ROUNDS} "
-          "rounds.\n")
-    print("| scene | frame | yardstick | " + " | ".join(f"`{m}`" for m in OURS) + f" | least / yardstick | at most "
-          f"{MOST_OVER_YARDSTICK} |\n|-|-|-|" + "-|" * (len(OURS) + 2))
+          "rounds. A cost is over the frame above, in frames of one's own casting.\n")
+    print("| scene | frame | yardstick | " + " | ".join(f"`{m}`" for m in OURS) + f" | least / yardstick | at most {MOST_OVER_YARDSTICK} | "
+          "cost, yardstick | cost, `fbvh` |\n|-|-|-|" + "-|" * (len(OURS) + 4))
     for row in rows:
         print("| " + " | ".join(row) + " |")
 

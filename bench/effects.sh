@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The tables of effects.md, measured here and now: bench/effects.sh [effects|yardstick|truth]... (default: all). Nothing else should run
 # meanwhile. Needs what ./run test installs, g++ and python3. SIZE=WxH: of the frames, 640x480 by default (a
-# small one first fills the driver's cache of programs).
+# small one first fills the driver's cache of programs). ONLY="SCENE...": of the table `effects`.
 set -euo pipefail
 cd "$(dirname "$(realpath "$0")")/.."
 # shellcheck source=SCRIPTDIR/yardstick.sh
