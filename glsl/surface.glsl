@@ -2,7 +2,8 @@
 
 struct Surface {
     REAL shift;     // what to add to t
-    REAL blur;      // about how far rounding may have moved the hit
+    REAL blur;      // about how far rounding may have moved the hit along the ray
+    REAL across;    // and across the surface
     REAL radius;    // the least of the balls around
     REAL3 normal;   // outward unit normal, -grad f / |grad f|
     vec4 color;     // density-weighted mean of the balls' colours or values (COLORS); a: place between two materials (MATERIALS)
@@ -46,7 +47,7 @@ REAL3 surface_from(REAL t, REAL middle, REAL3 way, REAL3 offset, REAL shrink)
     return from;
 }
 
-Surface surface_none() { return Surface(NUM(0.0), NUM(0.0), NUM(0.0), REAL3(0.0), vec4(0.0)); }
+Surface surface_none() { return Surface(NUM(0.0), NUM(0.0), NUM(0.0), NUM(0.0), REAL3(0.0), vec4(0.0)); }
 
 Surface surface_at(Ray ray, REAL t)
 {
@@ -83,6 +84,7 @@ Surface surface_at(Ray ray, REAL t)
     REAL size = sqrt(dot(gradient, gradient));
     surface.shift = slope != NUM(0.0) ? -value / slope : NUM(0.0);
     surface.blur = NUM(0.25) * TAU * rounding / abs(slope);
+    surface.across = NUM(0.25) * TAU * rounding / size;
     surface.normal = size > NUM(0.0) ? -gradient / size : -ray.way;
     surface.color = weight > 0.0 ? color / weight : vec4(0.0);
 #ifdef MATERIALS
@@ -92,11 +94,13 @@ Surface surface_at(Ray ray, REAL t)
 }
 
 // Whether the hit's place is good to its last digits: a Newton step that is not small is no correction, and where the slope is slight
-// or the balls are tiny beside their distance from the origin, rounding may have moved it.
+// or the balls are tiny beside their distance from the origin, rounding may have moved it. solids_first.glsl relies on both bounds.
 bool surface_settled(Surface surface, REAL t)
 {
+    bool settled = abs(surface.shift) <= NUM(1.0e-2) * surface.radius;
 #ifdef FAR
+    settled = settled && surface.across <= SETTLED * max(t + view_reach, surface.radius);
     t += depth.y + view_excess; // from the eye
 #endif
-    return abs(surface.shift) <= NUM(1.0e-2) * surface.radius && surface.blur <= SETTLED * max(t, surface.radius);
+    return settled && surface.blur <= SETTLED * max(t, surface.radius);
 }

@@ -98,6 +98,7 @@ void plan_eye(mns_plan *plan, const mns_field *field)
         plan->reach = vec3_length(vec3_sub(frame->eye, origin));
         if (plan->features & FEATURE_FAR) plan->reach = 0;
     }
+    plan->radius_max = field->radius_max;
     vec3_store(plan->origin, origin);
     plan->depth_range = fmax(facts->farthest - plan->plane_depth, 1e-300) * 1.0001;
     /* A little beyond the frame's corners: samples are jittered by up to a pixel. */

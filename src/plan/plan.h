@@ -93,6 +93,7 @@ struct mns_plan {
     double plane_depth;  /* where rays begin, along the view; 0 at the eye */
     double reach;        /* distance from the origin of the farthest ray start */
     double depth_range;  /* largest effective distance beyond the plane */
+    double radius_max;   /* the largest ball's */
     double core_ratio;   /* core radius over R of every ball, where CORE without CORE_RADII */
     mns_look look;       /* resolved, lengths in the field's unit; its lights are those of `light` */
     mns_light *light;    /* the plan's own, at least one */

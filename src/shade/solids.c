@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-enum { UNIT_TEXELS = 10, UNIT_MESH = 11, UNIFORM_REGION = 3 };
+enum { UNIT_TEXELS = 10, UNIT_MESH = 11, UNIFORM_REGION = 3, UNIFORM_RADIUS = 4 };
 
 /* Places of which floats hold products of two, and their sums; glsl/solids.glsl multiplies no such product by
  * another. */
@@ -158,6 +158,7 @@ void shade_solids_first(shade_solids *s, list_passes *p, gl_device *device, cons
     gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     gl->UseProgram(program);
     gl->Uniform4i(UNIFORM_REGION, 0, 0, width, height);
+    gl->Uniform1d(UNIFORM_RADIUS, plan->radius_max);
     gl->DispatchCompute((GLuint)(width + 7) / 8, (GLuint)(height + 7) / 8, 1);
     trace_finish(p, device, &counts);
     *undecided += counts.undecided;
