@@ -1,6 +1,5 @@
 /* Solid meshes: the first hit by the tree against every triangle in turn, edges and corners that no ray slips
  * through, rays that leave a triangle at any scale, and meshes in one plane. */
-#include "base/memory.h"
 #include "field/field.h"
 #include "solid/solid_files.h"
 #include "support/effects_fixture.h"
