@@ -108,19 +108,26 @@ static tally compare(const mns_image *got, const mns_image *want, double length)
     return sum;
 }
 
-static void expect_truth(draw_fixture *d, const mns_field *field, const mns_view *view, const mns_look *look,
-                         const mns_options *options, double length, int off, const char *what)
+static tally against_truth(draw_fixture *d, const mns_field *field, const mns_view *view,
+                           const mns_look *look, const mns_options *options, double length)
 {
     mns_image *want = draw_image(d, field, view, look, &truth);
     mns_image *got = draw_image(d, field, view, look, options);
     tally sum = compare(got, want, length);
+    mns_image_destroy(want);
+    mns_image_destroy(got);
+    return sum;
+}
+
+static void expect_truth(draw_fixture *d, const mns_field *field, const mns_view *view, const mns_look *look,
+                         const mns_options *options, double length, int off, const char *what)
+{
+    tally sum = against_truth(d, field, view, look, options, length);
     if (sum.wrong || sum.off > off || sum.open > 4)
         fail_msg("%s: %d open, %d wrong, %d of another colour", what, sum.open, sum.wrong, sum.off);
     if (sum.seen[0] < 100 || sum.seen[1] < 100 || sum.seen[2] < 20)
         fail_msg("%s: %d pixels of surface or nothing, %d of the floor, %d of the mesh", what, sum.seen[0],
                  sum.seen[1], sum.seen[2]);
-    mns_image_destroy(want);
-    mns_image_destroy(got);
 }
 
 static mns_field *three_balls(double size)
@@ -182,24 +189,16 @@ static void a_mesh_in_glass_is_seen_through_it(void **state)
         .effects = {
             .reflections = 1, .refractions = 4, .index = 1.4, .absorption = {1, 2, 3}, .occlusion_rays = 2}};
     mns_view view = view_of(1);
-    mns_image *want = draw_image(d, field, &view, &look, &truth);
-    mns_image *got = draw_image(d, field, &view, &look, &options);
-    tally sum = compare(got, want, 1e-4);
+    tally sum = against_truth(d, field, &view, &look, &options, 1e-4);
     if (sum.wrong || sum.off > 6 || sum.open > 4)
         fail_msg("%d open, %d wrong, %d off", sum.open, sum.wrong, sum.off);
-    mns_image_destroy(want);
-    mns_image_destroy(got);
     /* And from within: the eye beside the mesh. */
     const double eye[3] = {0.35, 0.1, 0.12}, at[3] = {0, 0, 0};
     view = draw_view(eye, at, 60, WIDTH, HEIGHT);
-    want = draw_image(d, field, &view, &look, &truth);
-    got = draw_image(d, field, &view, &look, &options);
-    sum = compare(got, want, 1e-4);
+    sum = against_truth(d, field, &view, &look, &options, 1e-4);
     if (sum.wrong || sum.off > 8 || sum.open > 8)
         fail_msg("inside: %d open, %d wrong, %d off", sum.open, sum.wrong, sum.off);
     assert_true(sum.seen[2] > 100);
-    mns_image_destroy(want);
-    mns_image_destroy(got);
     mns_field_destroy(field);
     drop_files(&f);
 }
@@ -262,15 +261,11 @@ static void a_far_eye_is_certain_of_a_mesh(void **state)
         const double eye[3] = {0.5 * away, 0.8 * away, 2.2 * away};
         const mns_options options = {.method = k & 1 ? MNS_METHOD_TILE : MNS_METHOD_FBVH};
         const mns_view view = draw_view(eye, at, 45 / away, WIDTH, HEIGHT);
-        mns_image *want = draw_image(d, field, &view, &look, &truth);
-        mns_image *got = draw_image(d, field, &view, &look, &options);
-        tally sum = compare(got, want, 1e-4);
+        tally sum = against_truth(d, field, &view, &look, &options, 1e-4);
         if (sum.wrong || sum.off > 2 || sum.open > 2)
             fail_msg("%g away, %d: %d open, %d wrong, %d off", away, k & 1, sum.open, sum.wrong, sum.off);
         if (sum.seen[0] < 100 || sum.seen[1] < 100 || sum.seen[2] < 10)
             fail_msg("seen %d %d %d", sum.seen[0], sum.seen[1], sum.seen[2]);
-        mns_image_destroy(want);
-        mns_image_destroy(got);
         if (is_second(d)) break;
     }
     mns_field_destroy(field);
@@ -296,14 +291,10 @@ static void a_floor_as_wide_as_floats_allow_is_met(void **state)
                            .meshes = f.mesh,
                            .mesh_count = 2,
                            .effects = {.occlusion_rays = 8, .occlusion_reach = 4}};
-    mns_image *want = draw_image(d, field, &view, &look, &truth);
-    mns_image *got = draw_image(d, field, &view, &look, &options);
-    tally sum = compare(got, want, 1e-2);
+    tally sum = against_truth(d, field, &view, &look, &options, 1e-2);
     if (sum.wrong || sum.off || sum.open > 30)
         fail_msg("%d open, %d wrong, %d off", sum.open, sum.wrong, sum.off);
     assert_true(sum.seen[1] > 500 && sum.seen[2] > 20);
-    mns_image_destroy(want);
-    mns_image_destroy(got);
     mns_field_destroy(field);
     drop_files(&f);
 }
@@ -329,14 +320,10 @@ static void of_meshes_in_one_plane_the_first_is_seen(void **state)
                            .effects = {.shadows = true, .reflections = 1, .mirror = 0.5}};
     for (int rug = 0; rug < 2; rug++) {
         mesh[rug] = f.mesh[1], mesh[1 - rug] = f.mesh[0];
-        mns_image *want = draw_image(d, field, &view, &look, &truth);
-        mns_image *got = draw_image(d, field, &view, &look, &options);
-        tally sum = compare(got, want, allowed(d));
+        tally sum = against_truth(d, field, &view, &look, &options, allowed(d));
         if (sum.wrong || sum.off > 2 || sum.open > 4)
             fail_msg("rug %d: %d open, %d wrong, %d off", rug, sum.open, sum.wrong, sum.off);
         assert_true(rug ? sum.seen[1] > 100 && sum.seen[2] == 0 : sum.seen[1] > 100 && sum.seen[2] > 100);
-        mns_image_destroy(want);
-        mns_image_destroy(got);
         if (is_second(d)) break;
     }
     mns_field_destroy(field);
