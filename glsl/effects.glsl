@@ -124,7 +124,8 @@ Answer ask(bool first, out int work)
     if (solid.hit && got.found == PIECE_HIT && got.t > solid.t - solid_gap(solid)) answer.found = PIECE_OPEN;
     if (solid.hit && got.found == PIECE_NONE) {
         path_met_solid = true;
-        return Answer(PIECE_HIT, solid.t, solid.normal, solid_color(solid.mesh));
+        int found = solid_steep(solid) ? PIECE_HIT : PIECE_OPEN;
+        return Answer(found, solid.t, solid.normal, solid_color(solid.mesh));
     }
 #endif
 #ifdef PATHS_ON
@@ -133,7 +134,11 @@ Answer ask(bool first, out int work)
     cast_gather(path_ray, got);
 #endif
     Surface surface = surface_at(path_ray, got.t);
-    bool settled = abs(surface.shift) <= 1.0e-4 * surface.radius && surface.blur <= SETTLED * (got.t + view_reach + surface.radius);
+    float lengths = got.t + view_reach + surface.radius;
+#ifdef SOLIDS
+    if (solid.hit) lengths -= surface.radius; // as solid_gap has it
+#endif
+    bool settled = abs(surface.shift) <= 1.0e-4 * surface.radius && surface.blur <= SETTLED * lengths;
     if (!settled) answer.found = PIECE_OPEN;
     answer.t = got.t + surface.shift;
     answer.normal = surface.normal;

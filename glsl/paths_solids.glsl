@@ -18,6 +18,13 @@ REAL solid_gap(Solid solid)
     return solid.off + SETTLED * (solid.t + solid_reach);
 }
 
+// Whether floats tell how far a path goes that meets a mesh: not where it grazes it, as a mirrored ray a wide floor near its horizon,
+// for what its direction is off counts there by the reciprocal of the slant.
+bool solid_steep(Solid solid)
+{
+    return abs(dot(solid.normal, solid_way)) > NUM(0.03125);
+}
+
 // Up to where the surface counts.
 REAL solid_before(Solid solid)
 {

@@ -1,5 +1,5 @@
-/* Meshes a hair before or behind the surface, where floats place it badly: which of the two is seen is right
- * or told as undecided. */
+/* Meshes where floats place badly what a ray meets: a hair before or behind the surface, and near the horizon
+ * of a wide floor that a ball mirrors. What is told as certain is right. */
 #include "support/draw_fixture.h"
 #include "support/mesh_file.h"
 
@@ -148,11 +148,61 @@ static void the_order_beside_an_eye_is_right_or_open(void **state)
         expect_order(d, &s, &(mns_options){.method = k ? MNS_METHOD_TILE : MNS_METHOD_FBVH});
 }
 
+/* A view from (0, 0, 4) of a place that mirrors the horizon: looks where of a wide view a mirrored ray goes
+ * farthest. */
+static mns_view view_of_horizon(draw_fixture *d, const mns_field *field, const mns_look *look)
+{
+    static const double eye[3] = {0, 0, 4}, at[3] = {0};
+    const double fov = 20, unit = 2 * tan(fov * acos(-1) / 360) / HEIGHT;
+    const mns_view wide = draw_view(eye, at, fov, WIDTH, HEIGHT);
+    mns_image *image = draw_image(d, field, &wide, look, &truth);
+    int best = 0;
+    double most = 0;
+    for (int i = 0; i < PIXELS; i++)
+        if (isfinite(image->mirror_t[i]) && (double)image->mirror_t[i] > most)
+            most = image->mirror_t[i], best = i;
+    mns_image_destroy(image);
+    const double there[3] = {4 * unit * (best % WIDTH + 0.5 - 0.5 * WIDTH),
+                             4 * unit * (0.5 * HEIGHT - best / WIDTH - 0.5), 0};
+    return draw_view(eye, there, 0.25, WIDTH, HEIGHT);
+}
+
+/* A floor so wide that mirrored rays come near to it along it. */
+static void a_mirrored_floor_is_right_up_to_its_horizon(void **state)
+{
+    draw_fixture *d = *state;
+    static const double at[12] = {0.123, 0.217, 0.1,  -0.31, 0.11,  0.27,
+                                  0.21,  -0.17, 0.33, -0.09, -0.26, 0.13};
+    if (!mesh_is_built_in()) skip();
+    mesh_path floor;
+    mesh_write(".obj", "v -1e5 -1 -1e5\nv -1e5 -1 1e5\nv 1e5 -1 1e5\nv 1e5 -1 -1e5\nf 1 2 3 4\n", floor);
+    mns_field *field = draw_field(4, at, NULL, 0.6, NULL, MNS_KERNEL_POLY3);
+    const mns_mesh mesh = {.file = floor};
+    const mns_look look = {.meshes = &mesh, .mesh_count = 1, .effects = {.reflections = 1, .mirror = 0.5}};
+    const mns_view view = view_of_horizon(d, field, &look);
+    mns_image *want = draw_image(d, field, &view, &look, &truth);
+    mns_image *got = draw_image(d, field, &view, &look, &(mns_options){.method = MNS_METHOD_TILE});
+    int wrong = 0, open = 0, far = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        double t = got->mirror_t[i], right = want->mirror_t[i];
+        far += right > 100 && right < 1e5;
+        open += got->certain[i] * got->effects_certain[i] != 1;
+        wrong += isinf(t) != isinf(right) || (!isinf(t) && fabs(t - right) > 0x1p-10 * right);
+    }
+    if (wrong || open > 2) fail_msg("%d wrong, %d open", wrong, open);
+    assert_true(far > 100);
+    mns_image_destroy(want);
+    mns_image_destroy(got);
+    mns_field_destroy(field);
+    unlink(floor);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_order_at_a_far_limb_is_right_or_open),
         cmocka_unit_test(the_order_beside_an_eye_is_right_or_open),
+        cmocka_unit_test(a_mirrored_floor_is_right_up_to_its_horizon),
     };
     return cmocka_run_group_tests_name("solids, order", tests, draw_fixture_setup, draw_fixture_teardown);
 }
