@@ -98,8 +98,8 @@ static void other_files_are_refused(void **state)
     const cli *c = *state;
     char path[200];
     path_of(c, "none.exr", path);
-    refuse(path, MNS_ERROR_IO, "not a file that is there");
-    refuse(c->folder, MNS_ERROR_IO, "not a file that is there");
+    refuse(path, MNS_ERROR_IO, "No such file");
+    refuse(c->folder, MNS_ERROR_IO, "not a file; expected a picture");
     cli_write(c, "text.exr", "hello");
     path_of(c, "text.exr", path);
     refuse(path, MNS_ERROR_INPUT, "neither an EXR nor a PNG");

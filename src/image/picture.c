@@ -102,10 +102,10 @@ done:
 static mns_status look_at(const char *path, int *first, int64_t *size, mns_error *error)
 {
     struct stat about;
-    if (stat(path, &about) != 0 || !S_ISREG(about.st_mode))
-        return status_fail(error, MNS_ERROR_IO, "%s: cannot open the picture: not a file that is there",
-                           path);
-    FILE *file = fopen(path, "rb");
+    bool there = stat(path, &about) == 0;
+    if (there && !S_ISREG(about.st_mode)) /* a pipe would be waited for */
+        return status_fail(error, MNS_ERROR_IO, "%s: not a file; expected a picture, EXR or PNG", path);
+    FILE *file = there ? fopen(path, "rb") : NULL;
     if (!file)
         return status_fail(error, MNS_ERROR_IO, "%s: cannot open the picture: %s", path, strerror(errno));
     *first = fgetc(file);
