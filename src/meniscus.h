@@ -324,7 +324,7 @@ MNS_API const char *mns_look_preset_name(size_t index);
 
 typedef enum mns_method {
     MNS_METHOD_AUTO =
-        0, /* the plan picks list, tile or fbvh by the driver, the field and what is asked of it */
+        0, /* the plan picks by the lengths and what is asked of one method alone: tile, mostly */
     MNS_METHOD_LIST,
     MNS_METHOD_REFERENCE, /* on the CPU, certified: mns_reference; its solver is always exact */
     MNS_METHOD_TILE,      /* the list's cast over lists a tile of pixels long, binned on the CPU */

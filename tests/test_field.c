@@ -260,7 +260,9 @@ static void host_arrays_are_checked(void **state)
     expect_usage(&(mns_field_desc){.count = 2, .position = {at, 0, false}}, "particle 1 is nan");
     mns_field_desc desc = {.count = 2, .position = {fine, 0, false}};
     mns_field_desc bad = desc;
-    bad.radius.data = zero;
+    bad.position.stride = 3;
+    expect_usage(&bad, "a stride of 3 bytes");
+    bad = desc, bad.radius.data = zero;
     expect_usage(&bad, "the radius of particle 1 is 0");
     bad = desc, bad.uniform_radius = -1;
     expect_usage(&bad, "uniform_radius is -1");

@@ -228,7 +228,7 @@ mns_status option_look(app_options *o, const char *name, const char *text, mns_e
     mns_look none = {0};
     mns_error what;
     if (mns_look_preset(text, &none, &what))
-        return app_fail(error, MNS_ERROR_USAGE, "%s %.60s: %s", name, text, what.text);
+        return app_fail(error, MNS_ERROR_USAGE, "%s: %s", name, what.text);
     o->look.preset = text;
     return MNS_OK;
 }

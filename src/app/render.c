@@ -5,6 +5,7 @@
 #include "app/progress.h"
 #include "app/stats_json.h"
 
+#include <math.h>
 #include <omp.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -301,6 +302,25 @@ static void note_domain(const mns_frame *frame)
             (unsigned long long)stats->list_max, (unsigned long long)most_active);
 }
 
+static bool sees_something(const mns_image *image)
+{
+    size_t pixels = (size_t)image->width * (size_t)image->height;
+    for (size_t i = 0; i < pixels; i++)
+        if (isfinite(image->t[i])) return true;
+    return false;
+}
+
+/* What was asked for and comes to nothing. */
+static void note_nothing(const render_job *job, const mns_image *image)
+{
+    size_t count;
+    const mns_left_out *out = mns_plan_left_out(mns_frame_plan(job->frame), &count);
+    for (size_t i = 0; i < count && job->look.effects.shadows; i++)
+        if (!strcmp(out[i].part, "shadows")) app_note("no shadows: %s (--light)", out[i].reason);
+    if (image && mns_frame_stats(job->frame)->balls && !sees_something(image))
+        app_note("no pixel sees the surface: f reaches the level nowhere, or not where the view looks");
+}
+
 static mns_status render_one(render_job *job, long index, mns_error *error)
 {
     render_frame f = {.index = index};
@@ -308,6 +328,7 @@ static mns_status render_one(render_job *job, long index, mns_error *error)
     if (!status) status = draw(job, &f, error);
     if (!status && index == job->first) note_domain(job->frame);
     if (!status) status = save(job, &f, error);
+    if (!status && index == job->first) note_nothing(job, f.image);
     if (!status) status = keep_stats(job, &f, error);
     if (!status) status = print_frame(job, &f, error);
     mns_image_destroy(f.image);

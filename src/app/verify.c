@@ -46,7 +46,8 @@ static const option_table VERIFY_OPTIONS = {
         "CPU. Exit status 1 where a pixel disagrees that is not undecided: a hit missed or invented, or "
         "|t - t*| beyond the truth's own bound and 2e-6 max(t*, R) / slope; slope is the least of 1 and "
         "|df/dt| R / L at the hit, R the radius of its strongest ball, and the whole is at most what is a "
-        "wrong root, 0.1 R + 2^-20 t*. docs/errors.md gives the reasons.",
+        "wrong root, 0.1 R + 2^-20 t*. docs/errors.md gives the reasons. Effects are not looked at: compare "
+        "does.",
     .rows = ROWS,
     .count = sizeof ROWS / sizeof *ROWS,
 };
@@ -103,6 +104,9 @@ static mns_status verify(const app_options *o, mns_error *error)
     drawing_close(&d);
     if (status) return status;
     print_report(&report);
+    if (o->look.effects.shadows || o->look.effects.reflections || o->look.effects.refractions ||
+        o->look.effects.occlusion_rays)
+        app_note("these are first hits; compare holds what light does beyond them against the truth, too");
     size_t wrong = report.missed + report.invented + report.off;
     if (!wrong) return MNS_OK;
     return app_fail(error, MNS_ERROR_GL, "%.200s: %zu of %zu pixels disagree with the truth", o->inputs[0],

@@ -13,6 +13,9 @@ static mns_status copy_values(const mns_values *from, size_t count, int width, d
 {
     size_t size = from->is_float ? sizeof(float) : sizeof(double);
     size_t stride = from->stride ? from->stride : size * (size_t)width;
+    if (stride < size * (size_t)width)
+        return status_fail(error, MNS_ERROR_USAGE, "%s: a stride of %zu bytes; an element has %zu", what,
+                           stride, size * (size_t)width);
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < width; k++) {
             const char *at = (const char *)from->data + i * stride + (size_t)k * size;
@@ -106,6 +109,8 @@ static mns_status copy_particles(const mns_field_desc *desc, particles *p, mns_e
 
 mns_status mns_field_create(const mns_field_desc *desc, mns_field **field, mns_error *error)
 {
+    if (!desc || !field)
+        return status_fail(error, MNS_ERROR_USAGE, "field: no description, or nowhere to put it");
     particles p = {0};
     mns_status status = copy_particles(desc, &p, error);
     if (status) goto fail;

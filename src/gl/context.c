@@ -122,6 +122,7 @@ static mns_status open_one(mns_backend kind, mns_context *context, mns_error *er
 
 mns_status mns_context_create(mns_backend backend, mns_context **context, mns_error *error)
 {
+    if (!context) return status_fail(error, MNS_ERROR_USAGE, "GL context: nowhere to put it");
     mns_context *made = calloc(1, sizeof *made);
     if (!made) return status_no_memory(error, "making a GL context");
     context_release_thread();
@@ -143,6 +144,7 @@ void mns_context_destroy(mns_context *context)
 
 mns_status mns_context_make_current(mns_context *context, mns_error *error)
 {
+    if (!context) return status_fail(error, MNS_ERROR_USAGE, "GL context: NULL cannot be made current");
     context_release_thread();
     return context->backend.make_current(context, error);
 }

@@ -233,6 +233,8 @@ static mns_status read_image(image_reader *reader, mns_image **image)
 
 mns_status mns_image_read(const char *path, mns_image **image, mns_error *error)
 {
+    if (!path || !image)
+        return status_fail(error, MNS_ERROR_USAGE, "image: no name to read, or nowhere to put it");
     image_reader reader = {.path = path, .error = error};
     mns_status status = read_image(&reader, image);
     image_exr_close(&reader);

@@ -76,6 +76,7 @@ static mns_status check(const mns_image *image, bool colors_only, const char *pa
 
 mns_status mns_image_write(const mns_image *image, const char *path, mns_error *error)
 {
+    if (!image || !path) return status_fail(error, MNS_ERROR_USAGE, "image: no image to write, or no name");
     bool is_png = ends_with(path, ".png");
     if (!is_png && !ends_with(path, ".exr"))
         return status_fail(error, MNS_ERROR_USAGE, "%s: unknown ending; expected .png or .exr", path);

@@ -105,7 +105,8 @@ static mns_status add_name(mns_input *input, const char *name, size_t count, mns
 mns_status mns_input_open(const char *const *names, size_t count, const mns_input_options *options,
                           mns_input **input, mns_error *error)
 {
-    if (!count)
+    if (!input) return status_fail(error, MNS_ERROR_USAGE, "input: nowhere to put it");
+    if (!count || !names)
         return status_fail(error, MNS_ERROR_USAGE, "no input is named; expected a file or a generator");
     mns_input *made = calloc(1, sizeof *made);
     if (!made) return status_no_memory(error, "opening files");
@@ -177,6 +178,8 @@ static mns_status read_generator(mns_input *input, size_t index, mns_field **fie
 
 mns_status mns_input_read(mns_input *input, size_t frame, mns_field **field, mns_error *error)
 {
+    if (!input || !field)
+        return status_fail(error, MNS_ERROR_USAGE, "input: none to read, or nowhere to put it");
     if (frame >= input->frame_count)
         return status_fail(error, MNS_ERROR_USAGE, "there is no frame %zu; the input has %zu, counted from 0",
                            frame, input->frame_count);

@@ -10,14 +10,15 @@ static mns_status check_options(const mns_options *options, mns_error *error)
                            "options: method %d is not in this build; take list, tile, fbvh, bvh or reference",
                            options->method);
     if (options->method == MNS_METHOD_REFERENCE && options->solver != MNS_SOLVER_EXACT)
-        return status_fail(error, MNS_ERROR_USAGE,
-                           "options: solver %d of the reference; reference has one solver: exact",
-                           options->solver);
+        return status_fail(error, MNS_ERROR_USAGE, "options: solver %s; reference has one solver: exact",
+                           (unsigned)options->solver > MNS_SOLVER_SECANT ? "?"
+                                                                         : mns_solver_name(options->solver));
     if ((unsigned)options->solver > MNS_SOLVER_SECANT)
         return status_fail(error, MNS_ERROR_USAGE, "options: no solver %d", options->solver);
     if (options->solver != MNS_SOLVER_EXACT && tree != (options->solver == MNS_SOLVER_SECANT))
-        return status_fail(error, MNS_ERROR_USAGE, "options: solver %d of this method; take exact%s",
-                           options->solver, tree ? " or secant" : ", cubic or cubic-monomial");
+        return status_fail(error, MNS_ERROR_USAGE, "options: solver %s is not of this method; take exact%s",
+                           mns_solver_name(options->solver),
+                           tree ? " or secant" : ", cubic or cubic-monomial");
     if (options->secant_steps < 0 || options->secant_steps > 4096)
         return status_fail(error, MNS_ERROR_USAGE, "options: %d secant steps; take 1 to 4096",
                            options->secant_steps);

@@ -46,6 +46,7 @@ static bool parse_numbers(const char *text, double rgba[4])
 mns_status mns_color_parse(const char *text, double rgba[4], mns_error *error)
 {
     double parsed[4] = {0, 0, 0, 1};
+    if (!text || !rgba) return status_fail(error, MNS_ERROR_USAGE, "colour: no text, or nowhere to put it");
     if (strcmp(text, "transparent") == 0)
         parsed[3] = 0;
     else if (text[0] == '#' ? !parse_hex(text + 1, parsed) : !parse_numbers(text, parsed))

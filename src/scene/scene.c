@@ -154,6 +154,7 @@ fail:
 
 mns_status mns_scene_load(const char *path, mns_scene **scene, mns_error *error)
 {
+    if (!path || !scene) return status_fail(error, MNS_ERROR_USAGE, "scene: no name, or nowhere to put it");
     char *text = NULL;
     size_t size = 0;
     mns_status status = read_text(path, &text, &size, error);

@@ -157,6 +157,7 @@ static mns_status check_directions(const mns_view *v, mns_error *error)
 mns_status mns_view_resolve(const mns_view *view, const mns_field *field, mns_view *resolved,
                             mns_error *error)
 {
+    if (!resolved) return status_fail(error, MNS_ERROR_USAGE, "view: nowhere to put it");
     mns_view v;
     memset(&v, 0, sizeof v);
     if (view) v = *view;
