@@ -6,6 +6,8 @@
     const FLOOR_OF_COUNTS = 0.1, FLOOR_ALONE = 1e-10;
 
     const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+    /* Every turn of the colours begins with another shape, so that no two curves share both. */
+    const curveShape = (index) => SHAPES[(index + 3 * Math.floor(index / COLORS)) % SHAPES.length];
     const curveColor = (index) => color(`curve-${index % COLORS}`);
 
     /* Below every value that a logarithm can show, a power of ten: where zeros are drawn. */
@@ -48,7 +50,7 @@
             borderColor: curveColor(index),
             backgroundColor: curveColor(index),
             pointBackgroundColor: (context) => context.raw?.error === 0 ? color('back') : curveColor(index),
-            pointStyle: SHAPES[index % SHAPES.length],
+            pointStyle: curveShape(index),
             pointRadius: 6,
             pointHoverRadius: 8,
             pointBorderWidth: 2,

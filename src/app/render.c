@@ -124,6 +124,15 @@ void render_fix_look(const mns_field *first, mns_look *look)
         look->set |= MNS_LOOK_RANGE;
 }
 
+/* A note of the first frame's radii alone would read as if they were every frame's. */
+static void note_radii(const render_job *job)
+{
+    mns_field_info info;
+    mns_field_get_info(job->kept, &info);
+    if (info.count && mns_input_frames(job->input) > 1 && !strcmp(info.radius_source, "default spacing"))
+        app_note("every frame has the radius of its own spacing; --radius keeps one for all");
+}
+
 /* Camera and colour range are those of the input's frame 0, whichever frames are drawn: a frame is the same
  * picture in whatever run it is drawn. */
 static mns_status fix_view(render_job *job, mns_error *error)
@@ -138,6 +147,7 @@ static mns_status fix_view(render_job *job, mns_error *error)
     job->kept_ms = app_clock_ms() - start;
     if (status) return status;
     render_note_field(o->input_count == 1 ? o->inputs[0] : "the first frame", job->kept);
+    note_radii(job);
     job->look = o->look;
     if (wants_range) render_fix_look(job->kept, &job->look);
     status = mns_view_resolve(&o->view, job->kept, &job->view, error);
