@@ -64,8 +64,9 @@ static void write_triangles(const scene *s, const mns_image *bare, mesh_path pat
         double off = s->nearest * pow(s->farthest / s->nearest, draw_random(&seed));
         double t = distance(bare, i) + (draw_random(&seed) < 0.5 ? -off : off);
         if (isinf(bare->t[i])) continue;
-        double right = s->pixel / s->away * (i % WIDTH + 0.5 - 0.5 * WIDTH);
-        double up = s->pixel / s->away * (0.5 * HEIGHT - i / WIDTH - 0.5);
+        int column = i % WIDTH, row = i / WIDTH;
+        double right = s->pixel / s->away * (column + 0.5 - 0.5 * WIDTH);
+        double up = s->pixel / s->away * (0.5 * HEIGHT - row - 0.5);
         double deep = t / sqrt(1 + right * right + up * up), half = 0.4 * s->pixel / s->away * deep;
         double x = s->eye[0] + right * deep, y = s->eye[1] + (up * c - d) * deep,
                z = s->eye[2] - (c + up * d) * deep;
@@ -162,8 +163,9 @@ static mns_view view_of_horizon(draw_fixture *d, const mns_field *field, const m
         if (isfinite(image->mirror_t[i]) && (double)image->mirror_t[i] > most)
             most = image->mirror_t[i], best = i;
     mns_image_destroy(image);
-    const double there[3] = {4 * unit * (best % WIDTH + 0.5 - 0.5 * WIDTH),
-                             4 * unit * (0.5 * HEIGHT - best / WIDTH - 0.5), 0};
+    int column = best % WIDTH, row = best / WIDTH;
+    const double there[3] = {4 * unit * (column + 0.5 - 0.5 * WIDTH), 4 * unit * (0.5 * HEIGHT - row - 0.5),
+                             0};
     return draw_view(eye, there, 0.25, WIDTH, HEIGHT);
 }
 
