@@ -7,7 +7,8 @@
  *
  * Errors: a function that can fail returns an mns_status and, when `error` is not NULL, fills it with one
  * line that says what went wrong, where, and what to do. On failure nothing is created and outputs are left
- * as they were.
+ * as they were. NULL for something that is needed is MNS_ERROR_USAGE; what has no status and destroys nothing
+ * takes none.
  *
  * Threads: there is no global state. An object may be used by one thread at a time; different objects are
  * independent. A renderer and its frames belong to one GL context and must be used on the thread where it is
@@ -77,7 +78,7 @@ MNS_API mns_kernel mns_kernel_by_name(const char *name);
 /* An array of the host's: element i starts at (const char *)data + i * stride. */
 typedef struct mns_values {
     const void *data; /* NULL: absent */
-    size_t stride;    /* bytes between elements; 0: packed */
+    size_t stride;    /* bytes between elements, at least an element's; 0: packed */
     bool is_float;    /* float elements; otherwise double */
 } mns_values;
 
