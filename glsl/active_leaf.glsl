@@ -1,38 +1,8 @@
 // The active set of a stretch of the ray in one leaf: the chords that meet the stretch, in slots.
 
-float slot_a[SLOTS];
-float slot_b[SLOTS];
-#ifdef RADII
-float slot_shrink[SLOTS];
-#endif
-#ifdef STRENGTHS
-float slot_q[SLOTS];
-#endif
-uint slot_ball[SLOTS]; // with REFERENCE_SPLIT
-int slot_count = 0;
-bool slot_overflow = false;
+#include "slots.glsl" // of a ball with REFERENCE_SPLIT
+
 float slot_margin = 0.0; // what rounding may add to a sum of densities on the leaf's stretch
-float active_from = 0.0; // where the current piece begins
-
-#define EACH_ACTIVE(j) for (int j = 0; j < slot_count; j++) if (slot_a[j] <= active_from && slot_b[j] > active_from)
-
-Chord active_chord(int j)
-{
-    Chord chord;
-    chord.a = slot_a[j];
-    chord.b = slot_b[j];
-#ifdef RADII
-    chord.shrink = slot_shrink[j];
-#else
-    chord.shrink = level.z;
-#endif
-#ifdef STRENGTHS
-    chord.strength = slot_q[j];
-#else
-    chord.strength = 1.0;
-#endif
-    return chord;
-}
 
 uint active_ball(int j)
 {
@@ -70,18 +40,7 @@ float slots_fill(Ray ray, Leaf leaf, out float stop)
         bool holds = chord_cut(ray, ball_get(reference & REFERENCE_BALL), chord);
         holds = holds && chord.b > leaf.begin && chord.a < leaf.end;
         // Put down before it is known to be held: a wide machine stores lane by lane, and branches that all lanes take alike are cheap.
-        int slot = min(slot_count, SLOTS - 1);
-        if (slot_count < SLOTS) {
-            slot_a[slot] = chord.a;
-            slot_b[slot] = chord.b;
-#ifdef RADII
-            slot_shrink[slot] = chord.shrink;
-#endif
-#ifdef STRENGTHS
-            slot_q[slot] = chord.strength;
-#endif
-            slot_ball[slot] = reference;
-        }
+        if (slot_count < SLOTS) slot_put(slot_count, chord, reference);
         if (holds) {
             float middle = clamp(0.5 * (chord.a + chord.b), leaf.begin, leaf.end);
             float w = clamp((middle - chord.a) * (chord.b - middle) * chord.shrink, 0.0, 1.0);

@@ -5,15 +5,8 @@
 // in no order; what has ended makes room. A list out of order is told by stream_disorder, more balls at once than slots by
 // slot_overflow.
 
-float slot_a[SLOTS];
-float slot_b[SLOTS];
-#ifdef RADII
-float slot_shrink[SLOTS];
-#endif
-#ifdef STRENGTHS
-float slot_q[SLOTS];
-#endif
-uint slot_ball[SLOTS];
+#include "slots.glsl"
+
 // Visits every slot in use, as j. The first are visited by their numbers, which costs a wide machine one load each; a slot whose number
 // is not known before costs it a load a lane. They always hold a chord, at first one that has ended.
 #if SLOTS < 8
@@ -28,10 +21,8 @@ uint slot_ball[SLOTS];
     for (int j = 8; j < slot_count; j++) visit;
 #endif
 
-int slot_count;      // slots in use; those whose ball has ended are free
+// Of the slot_count in use those whose ball has ended are free.
 int slot_free;       // one of the free, or slot_count
-bool slot_overflow;
-float active_from;   // where the current piece begins
 
 uint stream_node;    // the node read last; its ball is not in a slot yet
 uint stream_next;    // the node after it
@@ -40,26 +31,6 @@ Chord stream_chord;
 float stream_near;   // no ball from stream_node on begins before this; below zero where the ray misses the ball
 float stream_radius;
 bool stream_disorder;
-
-#define EACH_ACTIVE(j) for (int j = 0; j < slot_count; j++) if (slot_a[j] <= active_from && slot_b[j] > active_from)
-
-Chord active_chord(int j)
-{
-    Chord chord;
-    chord.a = slot_a[j];
-    chord.b = slot_b[j];
-#ifdef RADII
-    chord.shrink = slot_shrink[j];
-#else
-    chord.shrink = level.z;
-#endif
-#ifdef STRENGTHS
-    chord.strength = slot_q[j];
-#else
-    chord.strength = 1.0;
-#endif
-    return chord;
-}
 
 uint active_ball(int j)
 {
@@ -135,15 +106,7 @@ void stream_read(uint node)
 // Puts the ball that was read into a slot.
 void stream_take()
 {
-    slot_a[slot_free] = stream_chord.a;
-    slot_b[slot_free] = stream_chord.b;
-#ifdef RADII
-    slot_shrink[slot_free] = stream_chord.shrink;
-#endif
-#ifdef STRENGTHS
-    slot_q[slot_free] = stream_chord.strength;
-#endif
-    slot_ball[slot_free] = stream_ball;
+    slot_put(slot_free, stream_chord, stream_ball);
     slot_count = max(slot_count, slot_free + 1);
     slot_free = slot_count;
 }

@@ -187,13 +187,13 @@ static void sequences_are_numbered_by_the_inputs_index(void **state)
     assert_int_equal(json_integer_value(json_object_get(root, "frame")), 5);
     json_decref(root);
     /* without --frame a numbered name means all of them, and a plain one the first */
-    cli_run(c, "render two.csv two.csv -o 'g%%d.png' --size 16x12 --backend %s", backend());
+    static const char own[] = "every frame has the radius of its own spacing";
+    cli_run(c, "render bare.csv bare.csv -o x.%%d.png --size 16x12 --backend %s", backend());
     cli_expect(c, 0);
-    assert_true(cli_exists(c, "g0.png") && cli_exists(c, "g1.png"));
-    cli_run(c, "render two.csv two.csv -o h.png --size 16x12 --backend %s", backend());
+    assert_non_null(strstr(c->err, own));
+    cli_run(c, "render two.csv two.csv -o x.%%d.png --size 16x12 --backend %s", backend());
     cli_expect(c, 0);
-    assert_true(cli_exists(c, "h.png"));
-    assert_int_equal(cli_count_files(c), 9);
+    assert_null(strstr(c->err, own));
 }
 
 static void a_frame_is_the_same_picture_in_whatever_run(void **state)
@@ -265,6 +265,29 @@ static void a_scenes_blend_range_is_its_own_columns(void **state)
     free(other);
 }
 
+static void what_comes_to_nothing_is_noted(void **state)
+{
+    cli *c = *state;
+    static const struct {
+        const char *options, *note;
+    } noted[] = {{"--shadows", "meniscus: note: no shadows: a light at the eye casts none"},
+                 {"--iso 50", "meniscus: note: no pixel sees the surface"},
+                 {"--light 1,1,1 --shadows", NULL}};
+    for (size_t i = 0; i < sizeof noted / sizeof *noted; i++) {
+        cli_run(c, "render two.csv -o x.png --size 40x30 --radius 2 %s --backend %s", noted[i].options,
+                backend());
+        cli_expect(c, 0);
+        if (noted[i].note)
+            assert_non_null(strstr(c->err, noted[i].note));
+        else
+            assert_null(strstr(c->err, "note:"));
+    }
+    cli_run(c, "render two.csv two.csv -o x.%%d.png --size 40x30 --backend %s", backend());
+    cli_expect(c, 0);
+    bool own = strstr(c->err, "every frame has the radius of its own spacing") != NULL;
+    assert_int_equal(own, strstr(c->err, "no radii in it") != NULL);
+}
+
 static void guessed_radii_are_noted(void **state)
 {
     cli *c = *state;
@@ -323,6 +346,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(scenes_are_drawn_and_options_prevail, setup, teardown),
         cmocka_unit_test_setup_teardown(a_scenes_blend_range_is_its_own_columns, setup, teardown),
         cmocka_unit_test_setup_teardown(guessed_radii_are_noted, setup, teardown),
+        cmocka_unit_test_setup_teardown(what_comes_to_nothing_is_noted, setup, teardown),
         cmocka_unit_test_setup_teardown(a_frame_that_fails_leaves_the_ones_before_it_whole, setup, teardown),
         cmocka_unit_test_setup_teardown(a_terminal_gets_a_progress_line, setup, teardown),
     };

@@ -87,6 +87,9 @@ static mns_status check(const app_options *o, drawing *d, probe_report *report, 
         const mns_stats *s = mns_frame_stats(frame);
         printf("%s: %dx%d, %llu particles, %s, %s, %s\n", o->inputs[0], s->width, s->height,
                (unsigned long long)s->balls, s->method, s->solver, mns_renderer_name(d->renderer));
+        if (s->effects_rays)
+            app_note("only first hits are looked at; compare holds what light does beyond them against the "
+                     "truth, too");
         size_t rays = o->rays ? (size_t)o->rays : RAYS;
         status = probe_image(d->field, &d->view, image, rays, (uint64_t)o->seed, report, error);
     }
@@ -104,9 +107,6 @@ static mns_status verify(const app_options *o, mns_error *error)
     drawing_close(&d);
     if (status) return status;
     print_report(&report);
-    if (o->look.effects.shadows || o->look.effects.reflections || o->look.effects.refractions ||
-        o->look.effects.occlusion_rays)
-        app_note("these are first hits; compare holds what light does beyond them against the truth, too");
     size_t wrong = report.missed + report.invented + report.off;
     if (!wrong) return MNS_OK;
     return app_fail(error, MNS_ERROR_GL, "%.200s: %zu of %zu pixels disagree with the truth", o->inputs[0],
