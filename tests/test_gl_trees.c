@@ -5,7 +5,6 @@
 #include "render/render.h"
 #include "support/host_fixture.h"
 
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -114,19 +113,14 @@ static void the_same_again_builds_and_sends_nothing(void **state)
 
 /* ---- Frames that move ---- */
 
-static double longest(const mns_stats *stats, mns_phase phase, size_t count)
-{
-    double most = 0;
-    for (size_t i = 0; i < count; i++) most = fmax(most, stats[i].ms[phase]);
-    return most;
-}
-
 /* Until what is announced is built, as a device of its own would draw meanwhile. */
-static void wait_for_tree(draw_fixture *d, double most_ms)
+static void wait_for_tree(draw_fixture *d)
 {
-    double until = clock_ms() + most_ms;
-    while (!atomic_load(&d->renderer->worker.done) && clock_ms() < until)
+    double until = clock_ms() + 60000; /* no measure of speed: this much is a thread that hangs */
+    while (!atomic_load(&d->renderer->worker.done)) {
+        if (clock_ms() > until) fail_msg("what is announced is never built");
         nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    }
 }
 
 /* Announced fields give the pictures that they give unannounced, in any order of announcing. */
@@ -159,7 +153,7 @@ static void trees_built_ahead_give_the_same_pictures(void **state)
     for (size_t i = 0; i < FRAMES; i++) {
         if (i + 1 < FRAMES && mns_renderer_prepare(d->renderer, field[i + 1], &options, &error))
             fail_msg("%s", error.text);
-        if (i + 1 < FRAMES) wait_for_tree(d, 10000);
+        if (i + 1 < FRAMES) wait_for_tree(d);
         mns_image *image = draw_image(d, field[i], &small_view, NULL, &options);
         draw_expect_same(plain[i], image, "announced by the one before");
         mns_image_destroy(image);
@@ -172,46 +166,30 @@ static void trees_built_ahead_give_the_same_pictures(void **state)
     draw_fixture_check(d);
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* The paper's figure 7: while a frame is drawn the next one's tree is built, and the draw finds it. Each draw
- * waits a while, as for a device of its own, so that what a second processor gains does not hang on how many
- * there are. */
+/* The paper's figure 7: while a frame is drawn the next one's tree is built by another thread, and the draw
+ * takes that one. What a clock says of it is for the bench; here it is seen by who did what. */
 static void the_next_frames_tree_is_built_while_this_one_is_drawn(void **state)
 {
-    enum { FRAMES = 5 };
+    enum { FRAMES = 3 };
     draw_fixture *d = *state;
+    const trace_worker *worker = &d->renderer->worker;
     mns_error error;
-    mns_options options = {.method = MNS_METHOD_FBVH, .measure = true, .moved = true};
+    mns_options options = {.method = MNS_METHOD_FBVH, .moved = true};
     mns_field *field = draw_generated("dense:20000", MNS_KERNEL_POLY3);
-    mns_stats alone[FRAMES], ahead[FRAMES];
-    double called[FRAMES];
-    draw_by(d, field, &options); /* compiles */
-    double least = INFINITY;
-    for (size_t i = 0; i < FRAMES; i++) {
-        alone[i] = draw_by(d, field, &options);
-        least = fmin(least, alone[i].ms[MNS_PHASE_BUILD]);
-    }
+    mns_stats alone = draw_by(d, field, &options);
+    assert_true(!worker->running &&
+                !worker->ready.tree); /* nobody announced: the draw builds, and uses it up */
     if (mns_renderer_prepare(d->renderer, field, &options, &error)) fail_msg("%s", error.text);
     for (size_t i = 0; i < FRAMES; i++) {
-        wait_for_tree(d, 1000 + 20 * longest(alone, MNS_PHASE_BUILD, FRAMES)); /* the frame before is drawn */
-        ahead[i] = draw_by(d, field, &options);
-        called[i] = clock_ms();
+        assert_true(worker->running); /* to announce is not to wait */
+        wait_for_tree(d);             /* the frame before is drawn */
+        assert_int_equal(worker->ahead.status, MNS_OK);
+        fbvh_figures built = worker->ahead.tree->figures;
+        mns_stats ahead = draw_by(d, field, &options);
+        assert_true(!worker->running && !worker->ready.tree);                     /* it is used up */
+        assert_true(ahead.tree.build_ms == built.build_ms && built.build_ms > 0); /* no other was built */
+        assert_true(ahead.pixels_hit == alone.pixels_hit);
         if (mns_renderer_prepare(d->renderer, field, &options, &error)) fail_msg("%s", error.text);
-        called[i] = clock_ms() - called[i];
-    }
-    qsort(called, FRAMES, sizeof *called, by_value);
-    if (called[FRAMES / 2] > 0.5 * least) /* it is the thread that builds, not the caller */
-        fail_msg("to announce takes %g ms, a tree %g", called[FRAMES / 2], least);
-    for (size_t i = 0; i < FRAMES; i++) {
-        assert_true(ahead[i].tree.build_ms > 0 && ahead[i].pixels_hit == alone[i].pixels_hit);
-        if (ahead[i].ms[MNS_PHASE_BUILD] > 0.5 * least)
-            fail_msg("frame %zu waits %g ms for a tree that takes %g", i, ahead[i].ms[MNS_PHASE_BUILD],
-                     least);
     }
     renew(d);
     mns_field_destroy(field);
