@@ -134,9 +134,12 @@ static size_t new_triples(triples *t, uint64_t reads, uint64_t features, bool no
 static uint64_t next_mask(uint64_t reads, uint64_t subset, uint64_t *chance)
 {
     if (__builtin_popcountll(reads) < 20) return (subset - reads) & reads;
-    *chance = *chance * 6364136223846793005u + 1442695040888963407u; /* Knuth's */
-    uint64_t mask = *chance >> 20 & reads;
-    return *chance >> 48 == 0 ? 0 : mask;
+    uint64_t mask = 0;
+    for (int half = 0; half < 2; half++) { /* of a number its upper bits: the lower ones come round soon */
+        *chance = *chance * 6364136223846793005u + 1442695040888963407u; /* Knuth's */
+        mask = mask << 32 | *chance >> 32;
+    }
+    return *chance >> 48 == 0 ? 0 : mask & reads;
 }
 
 /* How many lights there are is no feature, but some texts hang on whether there are several: LIGHTS stands
@@ -148,6 +151,20 @@ static uint64_t reads_of(plan_shader shader)
     plan_shader_defines(&(mns_plan){.features = all, .look.light_count = 1}, shader, one);
     plan_shader_defines(&(mns_plan){.features = all, .look.light_count = 2}, shader, many);
     return variant_reads(shader) | (strcmp(one, many) != 0 ? FEATURE_LIGHTS : 0);
+}
+
+/* Each feature that the shader reads is there in some variant, and is missing in another. */
+static void expect_every_setting(const triples *t, plan_shader shader, uint64_t reads)
+{
+    size_t setting[FEATURE_COUNT];
+    for (int there = 0; there < 2; there++) {
+        uint64_t features = there ? ~UINT64_C(0) : 0;
+        size_t count = settings_of(reads & ~(FEATURE_KERNEL | FEATURE_SOLVER), features, setting);
+        for (size_t i = 0; i < count; i++)
+            if (!t->seen[setting[i]][setting[i]][setting[i]])
+                fail_msg("%s: no variant %s feature %zu", shader_names[shader], there ? "has" : "lacks",
+                         (setting[i] - 10) / 2 + 5);
+    }
 }
 
 /* Small shaders in every variant. Of those that walk a ray, which have thousands (some 20 s of compiling),
@@ -173,6 +190,7 @@ static void write_all(texts *t, plan_shader shader)
         } while (subset);
         if (!least) break;
     }
+    expect_every_setting(done, shader, reads);
     free(done);
 }
 

@@ -230,6 +230,78 @@ static void of_meshes_in_one_plane_the_first_is_seen(void **state)
     }
 }
 
+/* Whether a hit lies clearly behind another, as the decision on meshes in one place has it; and in one place.
+ */
+static bool is_behind(const solid_hit *a, const solid_hit *b)
+{
+    return a->t - b->t > 4 * (a->t_error + b->t_error);
+}
+
+static bool in_one_place(const solid_hit *a, const solid_hit *b)
+{
+    return fabs(a->t - b->t) <= 0.25 * (a->t_error + b->t_error);
+}
+
+/* Layers a part of rounding apart, each of a triangle of its own size and slant, in any order. */
+static size_t make_layers(uint64_t *seed, solid_soup *soup, solid_soup alone[5])
+{
+    size_t count = 2 + (size_t)(4 * next_random(seed)), first = (size_t)(count * next_random(seed));
+    size_t stride = count == 4 ? 1 : 1 + (size_t)((count > 3 ? count - 1 : 1) * next_random(seed));
+    double depth = 0, apart = 4e-12 * pow(200, next_random(seed));
+    for (size_t i = 0; i < count; i++) {
+        uint32_t mesh = (uint32_t)((first + stride * i) % count);
+        double half = pow(10, next_random(seed)), slant = 2 * next_random(seed) - 1;
+        const vec3 at[3] = {vec3_make(-half, -half, -1 - depth - slant * half),
+                            vec3_make(half, -half, -1 - depth - slant * half),
+                            vec3_make(0, half, -1 - depth + slant * half)};
+        add_to(soup, mesh, at[0], at[1], at[2]);
+        add_to(&alone[mesh], 0, at[0], at[1], at[2]);
+        depth += apart * next_random(seed);
+    }
+    return count;
+}
+
+/* Of any number of meshes near to one place the one named first is seen, of those that lie clearly behind
+ * none; where all of those are in one place that is certain, if it is told so, whatever came first. */
+static void how_many_lie_in_one_place_does_not_matter(void **state)
+{
+    (void)state;
+    uint64_t seed = 11;
+    size_t certain = 0, doubtful = 0, chosen = 0;
+    for (int round = 0; round < 20000; round++) {
+        solid_soup soup = {0}, alone[5] = {{0}};
+        solid_hit one[5];
+        const solid_ray ray = {.way = vec3_make(0, 0, -1), .reach = INFINITY};
+        size_t count = make_layers(&seed, &soup, alone);
+        for (size_t i = 0; i < count; i++) {
+            solid_set set = set_of(&alone[i]);
+            one[i] = solid_trace(&set, &ray);
+            assert_true(one[i].hit);
+            solid_set_free(&set);
+        }
+        solid_set set = set_of(&soup);
+        solid_hit hit = solid_trace(&set, &ray);
+        solid_set_free(&set);
+        assert_true(hit.hit);
+        size_t first = count, seen = 0;
+        bool is_told = true;
+        for (size_t i = 0; i < count; i++) {
+            bool hidden = false;
+            for (size_t k = 0; k < count; k++) hidden = hidden || is_behind(&one[i], &one[k]);
+            if (hidden) continue;
+            seen++;
+            if (first == count) first = i;
+            is_told = is_told && in_one_place(&one[i], &one[first]);
+        }
+        certain += hit.certain, doubtful += !hit.certain, chosen += hit.certain && seen > 1;
+        if (hit.certain && (!is_told || hit.mesh != first))
+            fail_msg("round %d: of %zu meshes %zu are seen, and that of %u is certain, where it is %zu%s",
+                     round, count, seen, hit.mesh, first, is_told ? "" : " or another");
+    }
+    print_message("%zu certain, %zu of them of several, %zu in doubt\n", certain, chosen, doubtful);
+    assert_true(certain > 4000 && chosen > 1000 && doubtful > 1000);
+}
+
 /* ---- Beside the surface ---- */
 
 static const double origin[3] = {0, 0, 0};
@@ -310,6 +382,7 @@ int main(void)
         cmocka_unit_test(no_ray_slips_between_two_triangles),
         cmocka_unit_test(a_ray_that_leaves_a_triangle_does_not_meet_it),
         cmocka_unit_test(of_meshes_in_one_plane_the_first_is_seen),
+        cmocka_unit_test(how_many_lie_in_one_place_does_not_matter),
         cmocka_unit_test(a_floor_is_seen_shadowed_and_mirrored),
     };
     return cmocka_run_group_tests_name("solids", tests, NULL, NULL);

@@ -34,11 +34,12 @@ static bool effects_possible(uint64_t f)
            !(f & FEATURE_ENVIRONMENT && f & FEATURE_SKY);
 }
 
-/* Rays beyond the first: of shadows and so on, and of mirrors where they have levels. */
+/* Rays beyond the first: of these, and of mirrors where they have levels. */
+#define ALWAYS_RAYS (FEATURE_SHADOWS | FEATURE_OCCLUSION | FEATURE_REFRACTION)
+
 static bool rays_possible(uint64_t f)
 {
-    const uint64_t always = FEATURE_SHADOWS | FEATURE_OCCLUSION | FEATURE_REFRACTION;
-    return f & FEATURE_RAYS ? f & (always | FEATURE_MIRROR) : !(f & always);
+    return f & FEATURE_RAYS ? f & (ALWAYS_RAYS | FEATURE_MIRROR) : !(f & ALWAYS_RAYS);
 }
 
 bool variant_possible(uint64_t f)
@@ -106,6 +107,7 @@ static uint64_t fill_in(plan_shader shader, uint64_t reads, uint64_t f)
     if (f & FEATURE_EYE_INSIDE) more |= FEATURE_EYE_IN_BALL;
     if (f & FEATURE_LABELS) more |= FEATURE_COLORS;
     if (f & FEATURE_SOFT_SHADOWS) more |= FEATURE_POINT_LIGHTS;
+    if (f & ALWAYS_RAYS) more |= FEATURE_RAYS;
     if (f & FEATURE_CORE_RADII) more |= FEATURE_CORE | FEATURE_STRENGTHS;
     if (shader == SHADER_CORE_QUADS || shader == SHADER_CORE_POINTS) more |= FEATURE_CORE;
     return f | (more & ~reads);
