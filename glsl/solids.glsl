@@ -13,6 +13,15 @@ struct Solid {
     uint mesh;
 };
 
+// The triangles that are met in one place, so far as rounding tells, before all others.
+struct SolidPlace {
+    REAL near;      // the first and the last of them on the ray
+    REAL far;
+    REAL least;     // what t may be off of the best and of the worst placed of them
+    REAL most;
+    bool mixed;     // they are of more meshes than one
+};
+
 REAL3 solid_start = REAL3(0.0);
 REAL3 solid_way = REAL3(0.0);
 REAL3 solid_leaves = REAL3(0.0); // normal of the triangle that the ray leaves, or 0: what lies in one plane with it is not met
@@ -22,7 +31,8 @@ REAL solid_begin = NUM(0.0);     // what the start may be off, of the lengths ar
 bool solid_fine = false;         // which of two triangles is met matters
 REAL solid_doubt = NUM(0.0);     // before this nothing is in doubt
 int solid_work = 0;              // nodes and triangles looked at
-Solid solid_best = Solid(false, false, NUM(0.0), NUM(0.0), REAL3(0.0), 0u);
+Solid solid_best = Solid(false, false, NUM(0.0), NUM(0.0), REAL3(0.0), 0u); // of solid_place: the nearest of its first mesh
+SolidPlace solid_place = SolidPlace(NUM(0.0), NUM(0.0), NUM(0.0), NUM(0.0), false);
 vec3 solid_near = vec3(0.0);     // the start, its slabs' scale and slack, in floats
 vec3 solid_inverse = vec3(0.0);
 vec3 solid_slack = vec3(0.0);
@@ -78,21 +88,27 @@ bool solid_outline(REAL3 a, REAL3 b, uint beside, REAL side)
     return !(side * turned > solid_room(a, b) + solid_room(a, c) + solid_room(c, b)) || solid_left(solid_normal(a, b, c));
 }
 
-// Whether a triangle that the ray meets is seen before the best so far: of two meshes in one place that of the lower number is. Floats
-// do not tell where that is.
+// Whether a triangle that the ray meets is seen before the best so far: of meshes in one place that of the lowest number is. Floats do
+// not tell where that is.
 bool solid_first(REAL t, REAL off, uint mesh)
 {
-    bool first = t < solid_best.t;
-    if (!solid_best.hit || mesh == solid_best.mesh) return first;
-    int told = triangle_first(abs(t - solid_best.t), off + solid_best.off);
+    SolidPlace p = solid_place;
+    int order = TRIANGLE_BEFORE;
+    if (solid_best.hit) order = triangle_order(t, off, p.near, p.far, p.least, p.most);
+    if (order == TRIANGLE_BEHIND) return false;
+    bool other = mesh != solid_best.mesh;
+    if (order == TRIANGLE_BEFORE) p = SolidPlace(t, t, off, off, false);
+    else p = SolidPlace(min(p.near, t), max(p.far, t), min(p.least, off), max(p.most, off), p.mixed || other);
+    solid_place = p;
 #ifdef MNS_DOUBLE
-    if (told == TRIANGLE_NEITHER) return mesh < solid_best.mesh;
-    bool open = told == TRIANGLE_OPEN;
+    bool open = order == TRIANGLE_OPEN;
+    bool by_number = order == TRIANGLE_WITH && other;
 #else
-    bool open = told != TRIANGLE_NEARER && solid_fine;
+    bool open = solid_fine;
+    bool by_number = false;
 #endif
-    if (open) solid_doubt = min(solid_doubt, min(t, solid_best.t) - off - solid_best.off);
-    return first;
+    if (open && p.mixed) solid_doubt = min(solid_doubt, p.near - p.most);
+    return by_number ? mesh < solid_best.mesh : t < solid_best.t;
 }
 
 // Takes a triangle that the ray meets (`within`), or may meet (`open`).

@@ -32,14 +32,18 @@ DENSITY_FN REAL triangle_normal(int axis, REAL ux, REAL uy, REAL uz, REAL vx, RE
     return ux * vy - uy * vx;
 }
 
-// Which of two triangles a ray meets first whose distances are `apart`, where rounding may be `off` of both together, which is far
-// more than it is of triangles in one plane: the nearer; or neither, for they are in one place; or that is not known.
-#define TRIANGLE_NEARER 0
-#define TRIANGLE_NEITHER 1
-#define TRIANGLE_OPEN 2
+// Where a triangle that the ray meets at t lies to those that it meets in one place so far, from `near` to `far`: clearly before or
+// behind them, in one place with each, or that is not known. Rounding may be `off` of it, and of each of them from `least` to `most`,
+// which is far more than it is of triangles in one plane.
+#define TRIANGLE_BEFORE 0
+#define TRIANGLE_BEHIND 1
+#define TRIANGLE_WITH 2
+#define TRIANGLE_OPEN 3
 
-DENSITY_FN int triangle_first(REAL apart, REAL off)
+DENSITY_FN int triangle_order(REAL t, REAL off, REAL near, REAL far, REAL least, REAL most)
 {
-    if (apart > NUM(4.0) * off) return TRIANGLE_NEARER;
-    return apart <= NUM(0.25) * off ? TRIANGLE_NEITHER : TRIANGLE_OPEN;
+    REAL clear = NUM(4.0) * (off + most);
+    if (near - t > clear) return TRIANGLE_BEFORE;
+    if (t - near > clear) return TRIANGLE_BEHIND;
+    return max(t, far) - min(t, near) <= NUM(0.25) * (off + least) ? TRIANGLE_WITH : TRIANGLE_OPEN;
 }

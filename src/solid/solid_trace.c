@@ -5,7 +5,11 @@
 #define REAL       double
 #define NUM(x)     ((REAL)(x))
 #define abs        fabs
+#define min        fmin
+#define max        fmax
 #include "triangle.glsl"
+#undef max
+#undef min
 #undef abs
 #undef NUM
 #undef REAL
@@ -14,6 +18,13 @@
 #define TAU       0x1p-40 /* as glsl/real.glsl has it of doubles */
 #define ONE_PLANE 1e-5    /* sine of the angle between triangles that count as one plane */
 
+/* The triangles that are met in one place, so far as rounding tells, before all others. */
+typedef struct place {
+    double near, far;   /* the first and the last of them on the ray */
+    double least, most; /* t_error of the best and of the worst placed of them */
+    bool mixed;         /* they are of more meshes than one */
+} place;
+
 /* A ray, and what is known of it so far. */
 typedef struct walk {
     const solid_set *set;
@@ -21,7 +32,8 @@ typedef struct walk {
     double start[3], inverse[3], slack[3]; /* of boxes' slabs */
     double reach;                          /* of the start, from the origin of coordinates */
     double doubt;
-    solid_hit best;
+    place place;
+    solid_hit best; /* of that place: the nearest of its first mesh */
 } walk;
 
 /* ---- A triangle ---- */
@@ -96,19 +108,28 @@ static bool meets(const walk *w, const solid_triangle *triangle, const vec3 p[3]
     return within || !*open; /* beside an inner edge it is met, or its neighbour: nothing slips between */
 }
 
-/* Takes a triangle that is met, if it is seen before the best so far: of two meshes in one place that of the
- * lower number is. */
+/* Takes a triangle that is met, if it is seen before the best so far: of meshes in one place that of the
+ * lowest number is. */
 static void take(walk *w, const solid_hit *met)
 {
-    const solid_hit *best = &w->best;
-    double off = met->t_error + best->t_error;
-    bool is_first = met->t < best->t;
-    if (best->hit && met->mesh != best->mesh) {
-        int first = triangle_first(fabs(met->t - best->t), off);
-        if (first == TRIANGLE_NEITHER) is_first = met->mesh < best->mesh;
-        if (first == TRIANGLE_OPEN) w->doubt = fmin(w->doubt, fmin(met->t, best->t) - off);
+    place *p = &w->place;
+    double t = met->t, off = met->t_error;
+    int order = TRIANGLE_BEFORE;
+    if (w->best.hit) order = triangle_order(t, off, p->near, p->far, p->least, p->most);
+    if (order == TRIANGLE_BEHIND) return;
+    if (order == TRIANGLE_BEFORE) {
+        *p = (place){.near = t, .far = t, .least = off, .most = off};
+        w->best = *met;
+        return;
     }
-    if (is_first) w->best = *met;
+    bool is_other = met->mesh != w->best.mesh;
+    *p = (place){.near = fmin(p->near, t),
+                 .far = fmax(p->far, t),
+                 .least = fmin(p->least, off),
+                 .most = fmax(p->most, off),
+                 .mixed = p->mixed || is_other};
+    if (order == TRIANGLE_OPEN && p->mixed) w->doubt = fmin(w->doubt, p->near - p->most);
+    if (is_other && order == TRIANGLE_WITH ? met->mesh < w->best.mesh : t < w->best.t) w->best = *met;
 }
 
 static void test(walk *w, const solid_triangle *triangle)
