@@ -30,6 +30,7 @@ REAL solid_limit = NUM(0.0);
 REAL solid_begin = NUM(0.0);     // what the start may be off, of the lengths around
 bool solid_fine = false;         // which of two triangles is met matters
 REAL solid_doubt = NUM(0.0);     // before this nothing is in doubt
+int solid_lefts = 0;             // triangles that the ray may have begun on
 int solid_work = 0;              // nodes and triangles looked at
 Solid solid_best = Solid(false, false, NUM(0.0), NUM(0.0), REAL3(0.0), 0u); // of solid_place: the nearest of its first mesh
 SolidPlace solid_place = SolidPlace(NUM(0.0), NUM(0.0), NUM(0.0), NUM(0.0), false);
@@ -111,6 +112,15 @@ bool solid_first(REAL t, REAL off, uint mesh)
     return by_number ? mesh < solid_best.mesh : t < solid_best.t;
 }
 
+// Takes a triangle that the ray may have begun on. To floats a second one may lie apart from it, where either is wide.
+void solid_take_left()
+{
+#ifndef MNS_DOUBLE
+    if (solid_lefts > 0) solid_doubt = NUM(0.0);
+    solid_lefts++;
+#endif
+}
+
 // Takes a triangle that the ray meets (`within`), or may meet (`open`).
 void solid_take(REAL3 a, REAL3 b, REAL3 c, bool within, bool open, uint mesh)
 {
@@ -123,14 +133,15 @@ void solid_take(REAL3 a, REAL3 b, REAL3 c, bool within, bool open, uint mesh)
     REAL t = flat_on ? dot(a, normal) / facing : NUM(0.0);
     REAL off = flat_on ? TAU * lengths / slant : FAR_AWAY;
     REAL begin = flat_on ? max(off, solid_begin * lengths / slant) : FAR_AWAY;
-    if (t < -off) return;
     bool leaves = dot(solid_leaves, solid_leaves) > NUM(0.0);
-    if (t <= (leaves ? begin : off)) { // where the ray starts
-        if (solid_left(normal)) return;
-        if (t <= off) {
-            solid_doubt = NUM(0.0);
-            return;
-        }
+    if (leaves && abs(t) <= begin && solid_left(normal)) { // the triangle that the ray leaves, as far as rounding tells
+        solid_take_left();
+        return;
+    }
+    if (t < -off) return;
+    if (t <= off) { // where the ray starts
+        solid_doubt = NUM(0.0);
+        return;
     }
     if (t - off > solid_limit) return;
     if (open || t + off >= solid_limit) solid_doubt = min(solid_doubt, t - off);
@@ -234,6 +245,7 @@ Solid solid_cast(REAL3 start, REAL3 way, REAL limit, REAL3 leaves, REAL begin, b
     solid_begin = begin;
     solid_fine = fine;
     solid_doubt = FAR_AWAY;
+    solid_lefts = 0;
     solid_work = 0;
     solid_best = Solid(false, false, FAR_AWAY, NUM(0.0), REAL3(0.0), 0u);
     solid_aim();

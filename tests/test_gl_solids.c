@@ -299,6 +299,35 @@ static void a_floor_as_wide_as_floats_allow_is_met(void **state)
     drop_files(&f);
 }
 
+/* A plate seen through a hole in a ceiling so wide that floats would take the one for a part of the other:
+ * the ceiling's shadow lies on it. */
+static void a_wide_ceiling_close_above_shadows(void **state)
+{
+    draw_fixture *d = *state;
+    static const double away[3] = {5, -3, 0}, eye[3] = {0, 1, 1e-3}, at[3] = {0};
+    const mns_light low = {.kind = MNS_LIGHT_DIRECTIONAL, .direction = {1, 0.18, 0.1}};
+    files f;
+    if (!mesh_is_built_in() || is_second(d)) skip();
+    mesh_write(".obj",
+               "v -1e5 0.02 -1e5\nv 1e5 0.02 -1e5\nv 1e5 0.02 1e5\nv -1e5 0.02 1e5\n"
+               "v -0.1 0.02 -0.1\nv 0.1 0.02 -0.1\nv 0.1 0.02 0.1\nv -0.1 0.02 0.1\n"
+               "f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
+               f.floor);
+    mesh_write(".obj", "v -0.4 0 -0.4\nv -0.4 0 0.4\nv 0.4 0 0.4\nv 0.4 0 -0.4\nf 1 2 3 4\n", f.box);
+    f.mesh[0] = (mns_mesh){.file = f.floor};
+    f.mesh[1] = (mns_mesh){.file = f.box};
+    mns_field *field = draw_field(1, away, NULL, 0.6, NULL, MNS_KERNEL_POLY3);
+    const mns_view view = draw_view(eye, at, 14, WIDTH, HEIGHT);
+    const mns_look look = {
+        .lights = &low, .light_count = 1, .meshes = f.mesh, .mesh_count = 2, .effects = {.shadows = true}};
+    tally sum = against_truth(d, field, &view, &look, &(mns_options){.method = MNS_METHOD_FBVH}, 1e-5);
+    if (sum.wrong || sum.off || sum.open > 30)
+        fail_msg("%d open, %d wrong, %d off", sum.open, sum.wrong, sum.off);
+    assert_true(sum.seen[1] > 300 && sum.seen[2] > 500);
+    mns_field_destroy(field);
+    drop_files(&f);
+}
+
 /* A rug in the floor's plane: the one that is named first is seen, by the eye and in the mirror. */
 static void of_meshes_in_one_plane_the_first_is_seen(void **state)
 {
@@ -400,6 +429,7 @@ int main(void)
         cmocka_unit_test(a_mesh_of_many_triangles_is_walked_in_parts),
         cmocka_unit_test(a_far_eye_is_certain_of_a_mesh),
         cmocka_unit_test(a_floor_as_wide_as_floats_allow_is_met),
+        cmocka_unit_test(a_wide_ceiling_close_above_shadows),
         cmocka_unit_test(of_meshes_in_one_plane_the_first_is_seen),
     };
     return cmocka_run_group_tests_name("solids, drawn", tests, draw_fixture_setup, draw_fixture_teardown);
