@@ -5,6 +5,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ---- Material ---- */
 
@@ -211,6 +212,11 @@ mns_status option_mesh(app_options *o, const char *name, const char *text, mns_e
         length = (size_t)(colon - text);
         mesh.has_color = true;
         memcpy(mesh.color, rgba, sizeof mesh.color);
+    } else if (colon && access(text, F_OK) != 0) {
+        return app_fail(error, MNS_ERROR_USAGE,
+                        "%s %.80s: there is no such file, and %.40s is no opaque colour; expected FILE or "
+                        "FILE:COLOR, a COLOR R,G,B or #rrggbb",
+                        name, text, colon + 1);
     }
     if (!length) return app_fail(error, MNS_ERROR_USAGE, "%s %.80s: expected FILE or FILE:COLOR", name, text);
     mesh.file = strndup(text, length);

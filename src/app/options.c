@@ -1,6 +1,7 @@
 #include "app/options.h"
 
 #include "app/app.h"
+#include "app/spelling.h"
 
 #include <argp.h>
 #include <stdio.h>
@@ -78,6 +79,18 @@ static struct argp_option *argp_rows(const option_table *table)
     return rows;
 }
 
+/* The option whose name is nearest to a misspelt one; NULL: none is near. */
+static const char *meant_by(const option_table *table, const char *name, size_t length)
+{
+    const char *meant = NULL;
+    size_t best = length > 4 ? SPELLING_FAR : SPELLING_FAR - 1;
+    for (size_t i = 0; i < table->count; i++) {
+        size_t slips = table->rows[i].name ? spelling_slips(name, length, table->rows[i].name) : best;
+        if (slips < best) best = slips, meant = table->rows[i].name;
+    }
+    return meant;
+}
+
 /* argp stopped at `word`: says why. */
 static mns_status wrong_word(const option_table *table, const char *word, mns_error *error)
 {
@@ -93,8 +106,27 @@ static mns_status wrong_word(const option_table *table, const char *word, mns_er
                             row->value);
         return app_fail(error, MNS_ERROR_USAGE, "%.*s: takes no value", (int)length, word);
     }
-    return app_fail(error, MNS_ERROR_USAGE, "unknown option %.80s; \"meniscus %s --help\" lists them", word,
-                    table->command);
+    const char *meant = length > 2 ? meant_by(table, word + 2, length - 2) : NULL;
+    return app_fail(error, MNS_ERROR_USAGE, "unknown option %.80s%s%s; \"meniscus %s --help\" lists them",
+                    word, meant ? ": expected --" : "", meant ? meant : "", table->command);
+}
+
+/* A number after an option that takes its value by an equals sign alone would be read as a file's name. */
+static mns_status check_loose_values(const option_table *table, int argc, char **argv, mns_error *error)
+{
+    for (int i = 1; i + 1 < argc && strcmp(argv[i], "--") != 0; i++) {
+        const char *value = argv[i + 1];
+        if (strncmp(argv[i], "--", 2) != 0 || !*value || value[strspn(value, "0123456789")]) continue;
+        for (size_t r = 0; r < table->count; r++) {
+            const option_row *row = &table->rows[r];
+            if (row->name && row->value && row->value[0] == '?' &&
+                !strncmp(row->name, argv[i] + 2, strlen(argv[i] + 2)))
+                return app_fail(error, MNS_ERROR_USAGE,
+                                "%s %.40s: expected %s=%.40s, or ./%.40s for a file of that name", argv[i],
+                                value, argv[i], value, value);
+        }
+    }
+    return MNS_OK;
 }
 
 /* Splits argv into options and names; prints the help where it is asked for. */
@@ -201,6 +233,7 @@ mns_status options_read(const option_table *table, int argc, char **argv, app_op
     mns_status status = MNS_OK;
     if (!line.given || !line.names)
         status = app_fail(error, MNS_ERROR_MEMORY, "out of memory reading the command line");
+    if (!status) status = check_loose_values(table, argc, argv, error);
     if (!status) status = split(argc, argv, &line, error);
     o->help = line.help;
     if (!status && !line.help) {
