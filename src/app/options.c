@@ -120,7 +120,7 @@ static mns_status check_loose_values(const option_table *table, int argc, char *
         for (size_t r = 0; r < table->count; r++) {
             const option_row *row = &table->rows[r];
             if (row->name && row->value && row->value[0] == '?' &&
-                !strncmp(row->name, argv[i] + 2, strlen(argv[i] + 2)))
+                strstr(row->name, argv[i] + 2) == row->name)
                 return app_fail(error, MNS_ERROR_USAGE,
                                 "%s %.40s: expected %s=%.40s, or ./%.40s for a file of that name", argv[i],
                                 value, argv[i], value, value);
