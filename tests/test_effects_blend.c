@@ -26,11 +26,12 @@ static mns_look dark(void) /* everything of the lights by hand */
                       .color = {1, 1, 1}};
 }
 
-/* Balls that would have all or none of it; how much a surface has is for the fixture to say. */
-static mns_field *balls_of_two_materials(void)
+/* Balls that would have all or none of it, all times `size`; how much a surface has is for the fixture to
+ * say. */
+static mns_field *balls_of_two_materials(double size)
 {
-    static const double position[] = {0, 0, 0, 0, 3, 0}, share[] = {0, 1};
-    const double radius[] = {2 / edge(), 1 / edge()};
+    static const double share[] = {0, 1};
+    const double position[] = {0, 0, 0, 0, 3 * size, 0}, radius[] = {2 * size / edge(), size / edge()};
     const mns_column_desc column = {"share", {.data = share}};
     const mns_field_desc desc = {.count = 2,
                                  .position = {.data = position},
@@ -45,7 +46,7 @@ static mns_field *balls_of_two_materials(void)
     return field;
 }
 
-static mns_look two_materials(void)
+static mns_look two_materials(double size)
 {
     mns_look look = dark();
     look.ambient = 1;
@@ -55,16 +56,18 @@ static mns_look two_materials(void)
                                  .index = 1.5,
                                  .mirror = 0.125,
                                  .transmission = 0.75,
-                                 .absorption = {0, 0.25, 1}};
-    look.blend =
-        (mns_blend){.by = "share", .mirror = 0.5, .transmission = 0.25, .absorption = {2, 0.125, 0.5}};
+                                 .absorption = {0, 0.25 / size, 1 / size}};
+    look.blend = (mns_blend){.by = "share",
+                             .mirror = 0.5,
+                             .transmission = 0.25,
+                             .absorption = {2 / size, 0.125 / size, 0.5 / size}};
     return look;
 }
 
 /* What a look with those numbers would be, mixed by hand. */
-static mns_look mixed(double weight)
+static mns_look mixed(double weight, double size)
 {
-    mns_look look = two_materials();
+    mns_look look = two_materials(size);
     mns_effects *e = &look.effects;
     e->mirror += weight * (look.blend.mirror - e->mirror);
     e->transmission += weight * (look.blend.transmission - e->transmission);
@@ -73,14 +76,13 @@ static mns_look mixed(double weight)
     return look;
 }
 
-static void a_blend_is_the_material_between(void **state)
+static void expect_blend(double size)
 {
-    (void)state;
-    mns_field *field = balls_of_two_materials();
-    const vec3 eye = {0.5, 1, 10}, at = {0, 1, 0};
+    mns_field *field = balls_of_two_materials(size);
+    const vec3 eye = {0.5 * size, size, 10 * size}, at = {0, size, 0};
     for (int k = 0; k <= 4; k++) {
         effects_fixture one, two;
-        const mns_look blended = two_materials(), by_hand = mixed(0.25 * k);
+        const mns_look blended = two_materials(size), by_hand = mixed(0.25 * k, size);
         effects_fixture_open(&two, field, eye, at, &blended);
         effects_fixture_open(&one, field, eye, at, &by_hand);
         assert_true(two.plan->features & FEATURE_MATERIALS && !(one.plan->features & FEATURE_MATERIALS));
@@ -101,6 +103,13 @@ static void a_blend_is_the_material_between(void **state)
     mns_field_destroy(field);
 }
 
+static void a_blend_is_the_material_between(void **state)
+{
+    (void)state;
+    expect_blend(1);
+    expect_blend(0x1p-60); /* where the field's own unit is another: absorption is a unit of the scene's */
+}
+
 /* Of the first surface that is asked for none is of the second material, of those after it all. */
 static double first_then_second(const void *user, const reference_scratch *scratch, double s, double color[3])
 {
@@ -116,7 +125,7 @@ static void a_way_inside_is_dimmed_by_both_its_ends(void **state)
 {
     (void)state;
     int calls = 0, *const counter = &calls;
-    mns_field *field = balls_of_two_materials();
+    mns_field *field = balls_of_two_materials(1);
     mns_look look = dark();
     look.set |= MNS_LOOK_TRANSMISSION;
     look.effects = (mns_effects){.refractions = 2, .transmission = 1, .absorption = {0.25, 0, 0.5}};

@@ -21,14 +21,18 @@ enum {
     BUFFER_CORES = 1,
     BUFFER_COLORS = 2,
     BUFFER_FAR = 4,
-    BUFFERS = BUFFER_CORES | BUFFER_COLORS | BUFFER_FAR,
     TEXTURE_CORE_DEPTH = 8,
     TEXTURE_HOST_DEPTH = 16,
-    PLANE_COLOR = 32
+    PLANE_COLOR = 32,
+    PLANE_LIT = 64,
+    BUFFER_LIGHTS = 128,
+    BUFFER_WALKS = 256,
+    TREE = 512,
+    BUFFERS = BUFFER_CORES | BUFFER_COLORS | BUFFER_FAR | BUFFER_LIGHTS | BUFFER_WALKS
 };
-enum {
-    BASE_BUFFERS = 7
-}; /* balls, their backward indices, nodes, node counter, pixels to resolve, view, shading */
+/* Balls, their backward indices, nodes, node counter, pixels to resolve, view, shading; and of a tree its
+ * balls, pairs of boxes, leaves, references. */
+enum { BASE_BUFFERS = 7, TREE_BUFFERS = 4 };
 
 typedef struct leave_out_case {
     scene s;
@@ -38,6 +42,10 @@ typedef struct leave_out_case {
 } leave_out_case;
 
 #define ONE .desc = {.count = 1, .position = {.data = scene_row}, .uniform_radius = 1}
+
+#define LIT_PROGRAMS (BASE_PROGRAMS | PROGRAM(EFFECTS_LIST))
+#define LIT_OBJECTS  (TEXTURE_CORE_DEPTH | PLANE_LIT | BUFFER_LIGHTS)
+static const mns_light lamp = {.kind = MNS_LIGHT_POINT, .position = {3, 4, 5}};
 
 static const leave_out_case cases[] = {
     {{"one ball", ONE, .view = {SMALL}}, BASE_PROGRAMS, TEXTURE_CORE_DEPTH, 7},
@@ -80,6 +88,19 @@ static const leave_out_case cases[] = {
     {{"a host", ONE, .view = {SMALL}, .host = true},
      BASE_PROGRAMS | PROGRAM(HOST_DEPTH) | PROGRAM(HOST_DRAW),
      TEXTURE_CORE_DEPTH | TEXTURE_HOST_DEPTH,
+     9},
+    {{"a lamp, and no rays", ONE, .view = {SMALL}, .look = {.lights = &lamp, .light_count = 1}},
+     LIT_PROGRAMS | PROGRAM(EFFECTS_PLAIN),
+     LIT_OBJECTS,
+     8},
+    {{"a mirror", ONE, .view = {SMALL}, .look = {.effects = {.reflections = 1}}},
+     LIT_PROGRAMS | PROGRAM(EFFECTS),
+     LIT_OBJECTS | BUFFER_WALKS | TREE,
+     9},
+    {{"shadows", ONE, .view = {SMALL},
+      .look = {.light = MNS_LIGHT_DIRECTIONAL, .effects = {.shadows = true}}},
+     LIT_PROGRAMS | PROGRAM(EFFECTS) | PROGRAM(EFFECTS_ANY),
+     LIT_OBJECTS | BUFFER_WALKS | TREE,
      9},
 };
 
@@ -131,18 +152,20 @@ static mns_stats draw_scene(draw_fixture *d, const scene *s, const mns_field *fi
 }
 
 /* The late programs and buffers that the frame's own counts say were needed. */
-static unsigned late_programs(const mns_stats *stats)
+static unsigned late_programs(const draw_fixture *d, const mns_stats *stats)
 {
     unsigned late = 0;
+    if (d->renderer->trace.balls_low.id) late |= PROGRAM(EFFECTS_RESOLVE);
     if (stats->fallbacks.active_overflow + stats->fallbacks.root_cap) late |= PROGRAM(WALK);
     if (stats->fallbacks.undecided_float) late |= PROGRAM(RESOLVE);
     if (stats->fallbacks.lists_sorted) late |= PROGRAM(ORDER);
     return late;
 }
 
-static unsigned late_buffers(const mns_stats *stats)
+static unsigned late_buffers(const draw_fixture *d, const mns_stats *stats)
 {
-    return stats->fallbacks.undecided_float ? 2 : 0; /* low words, and the view as doubles */
+    unsigned low = stats->fallbacks.undecided_float ? 1 : 0, tree_low = d->renderer->trace.balls_low.id != 0;
+    return low + tree_low + (low || tree_low); /* low words, and the view as doubles */
 }
 
 /* Asking for the program of each expected shader makes no new one; and there are no others. */
@@ -169,7 +192,9 @@ static unsigned objects_of(const draw_fixture *d)
     const list_passes *p = &d->renderer->passes;
     return (p->cores.id ? BUFFER_CORES : 0u) | (p->colors.id ? BUFFER_COLORS : 0u) |
            (p->far_block.id ? BUFFER_FAR : 0u) | (p->core_depth ? TEXTURE_CORE_DEPTH : 0u) |
-           (p->host_depth ? TEXTURE_HOST_DEPTH : 0u) | (d->frame->color ? PLANE_COLOR : 0u);
+           (p->host_depth ? TEXTURE_HOST_DEPTH : 0u) | (d->frame->color ? PLANE_COLOR : 0u) |
+           (d->frame->lit ? PLANE_LIT : 0u) | (d->renderer->effects.block.id ? BUFFER_LIGHTS : 0u) |
+           (d->renderer->effects.store.id ? BUFFER_WALKS : 0u) | (d->renderer->trace.balls.id ? TREE : 0u);
 }
 
 /* A renderer without a past. */
@@ -201,12 +226,12 @@ static void each_scene_makes_what_it_needs_and_no_more(void **state)
         renew(d);
         mns_field *field = scene_field(&s);
         mns_stats stats = draw_scene(d, &s, field);
-        expect_programs(d, c->s.name, c->programs | late_programs(&stats));
+        expect_programs(d, c->s.name, c->programs | late_programs(d, &stats));
         unsigned objects = objects_of(d);
         if (objects != c->objects)
             fail_msg("%s: objects 0x%x, expected 0x%x", c->s.name, objects, c->objects);
-        unsigned buffers =
-            BASE_BUFFERS + (unsigned)__builtin_popcount(c->objects & BUFFERS) + late_buffers(&stats);
+        unsigned buffers = BASE_BUFFERS + (c->objects & TREE ? TREE_BUFFERS : 0) +
+                           (unsigned)__builtin_popcount(c->objects & BUFFERS) + late_buffers(d, &stats);
         if (stats.buffers != buffers)
             fail_msg("%s: %llu buffers, expected %u", c->s.name, (unsigned long long)stats.buffers, buffers);
         assert_int_equal(stats.passes, c->passes);
@@ -230,11 +255,12 @@ static void a_scene_adds_only_what_is_new(void **state)
         s.options.solver = MNS_SOLVER_CUBIC;
         mns_field *field = scene_field(&s);
         mns_stats stats = draw_scene(d, &s, field);
-        late |= late_programs(&stats);
+        late |= late_programs(d, &stats);
         programs |= c->programs;
         objects |= c->objects;
         assert_int_equal(objects_of(d), objects);
-        unsigned host_variants = c->s.host ? 1u + (late_programs(&stats) & PROGRAM(RESOLVE) ? 1u : 0u) : 0u;
+        unsigned host_variants =
+            c->s.host ? 1u + (late_programs(d, &stats) & PROGRAM(RESOLVE) ? 1u : 0u) : 0u;
         unsigned want =
             (unsigned)__builtin_popcount(programs) + (unsigned)__builtin_popcount(late) + host_variants;
         if (stats.programs != want)

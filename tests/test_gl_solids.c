@@ -359,6 +359,32 @@ static void of_meshes_in_one_plane_the_first_is_seen(void **state)
     drop_files(&f);
 }
 
+/* Meshes that stay while their colours change, and while the field goes elsewhere, are where they were and of
+ * the new colours. */
+static void what_changed_of_meshes_is_sent_anew(void **state)
+{
+    draw_fixture *d = *state;
+    static const double beside[3] = {0.7, 0, 0.1}, elsewhere[3] = {-0.3, 0.2, -0.1};
+    files f;
+    if (!mesh_is_built_in() || is_second(d)) skip();
+    write_files(&f, 1, beside);
+    mns_field *fields[2] = {three_balls(1), draw_field(1, elsewhere, NULL, 0.6, NULL, MNS_KERNEL_POLY3)};
+    const mns_view view = view_of(1);
+    const mns_options options = {.method = MNS_METHOD_FBVH};
+    const mns_look look = {.lights = &sun,
+                           .light_count = 1,
+                           .meshes = f.mesh,
+                           .mesh_count = 2,
+                           .effects = {.shadows = true, .reflections = 1, .mirror = 0.5}};
+    for (int k = 0; k < 3; k++) {
+        const char *const what[] = {"at first", "other colours", "another field"};
+        if (k == 1) f.mesh[1].color[1] = 0.8, f.mesh[0].has_color = true, f.mesh[0].color[2] = 0.7;
+        expect_truth(d, fields[k / 2], &view, &look, &options, allowed(d), 2, what[k]);
+    }
+    for (int k = 0; k < 2; k++) mns_field_destroy(fields[k]);
+    drop_files(&f);
+}
+
 /* ---- What is there and what is not ---- */
 
 /* A plain picture beside a mesh: of the surface every pixel that no mesh hides is as it is without, and no
@@ -431,6 +457,7 @@ int main(void)
         cmocka_unit_test(a_floor_as_wide_as_floats_allow_is_met),
         cmocka_unit_test(a_wide_ceiling_close_above_shadows),
         cmocka_unit_test(of_meshes_in_one_plane_the_first_is_seen),
+        cmocka_unit_test(what_changed_of_meshes_is_sent_anew),
     };
     return cmocka_run_group_tests_name("solids, drawn", tests, draw_fixture_setup, draw_fixture_teardown);
 }
