@@ -35,6 +35,9 @@ typedef enum fbvh_kind { FBVH_FITTED = 0, FBVH_OVERLAPPING } fbvh_kind;
 /* What a leaf of n balls is taken to cost (section 5.1.1). */
 typedef enum fbvh_cost { FBVH_COST_SQUARE = 0, FBVH_COST_LINEAR } fbvh_cost;
 
+/* Bound on references, a ball: the heuristic ends well before it but in the densest parts of a field. */
+#define FBVH_REFERENCES 32
+
 /* Zeros are the defaults. fbvh_options_parse names each. */
 typedef struct fbvh_options {
     fbvh_kind kind;
@@ -49,7 +52,7 @@ typedef struct fbvh_options {
                                  balls, else 200; 6 of linear cost */
     int middle_levels;        /* so many first levels are cut in the middle of the longest axis; 0: chosen by
                                  the density of the field; -1: none */
-    double references_a_ball; /* bound on all references, over the count of balls; 0: 16; at least 1 */
+    double references_a_ball; /* bound on all references, over the count of balls; 0: FBVH_REFERENCES */
     size_t max_block_bytes;   /* of any one of the packed arrays; 0: 128 MiB */
 } fbvh_options;
 

@@ -21,7 +21,7 @@ mns_status fbvh_options_resolve(const fbvh_options *options, size_t balls, fbvh_
     if (!o->discard_most) o->discard_most = 12;
     if (!o->leaf_least) o->leaf_least = 4;
     if (o->traversal_cost == 0) o->traversal_cost = usual_traversal_cost(o->cost, balls);
-    if (o->references_a_ball == 0) o->references_a_ball = 16;
+    if (o->references_a_ball == 0) o->references_a_ball = FBVH_REFERENCES;
     if (!o->max_block_bytes) o->max_block_bytes = BLOCK_BYTES;
     if (o->kind > FBVH_OVERLAPPING || o->cost > FBVH_COST_LINEAR)
         return status_fail(error, MNS_ERROR_USAGE, "fbvh: no such kind of tree, or of cost");

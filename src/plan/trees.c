@@ -14,7 +14,7 @@ mns_status plan_tree_options(const mns_options *options, const mns_limits *limit
     memset(tree, 0, sizeof *tree); /* two are compared as bytes */
     mns_status status = fbvh_options_parse(options->tree, tree, error);
     if (status) return status;
-    if (tree->references_a_ball == 0) tree->references_a_ball = 16; /* as the builder's own */
+    if (tree->references_a_ball == 0) tree->references_a_ball = FBVH_REFERENCES; /* as the builder's own */
     tree->kind = options->method == MNS_METHOD_BVH ? FBVH_OVERLAPPING : FBVH_FITTED;
     size_t block = limits->max_storage_block - 64; /* the references have one more */
     if (!tree->max_block_bytes || tree->max_block_bytes > block) tree->max_block_bytes = block;

@@ -139,7 +139,7 @@ void fbvh_check_shape(const fbvh_tree *t, const fbvh_options *options)
     assert_int_equal(s.largest, f->leaf_largest);
     assert_int_equal(s.own, f->own);
     assert_true(s.depth <= FBVH_DEPTH_MOST);
-    double bound = options->references_a_ball > 0 ? options->references_a_ball : 16;
+    double bound = options->references_a_ball > 0 ? options->references_a_ball : FBVH_REFERENCES;
     assert_true((double)t->reference_count <= bound * (double)t->ball_count);
     assert_true(t->reference_count <= f->reference_bound);
     size_t block = options->max_block_bytes ? options->max_block_bytes : (size_t)128 << 20;
