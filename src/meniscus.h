@@ -357,7 +357,8 @@ typedef struct mns_options {
     int sample_first, sample_count;
     bool moved;       /* every position changed since the last draw: reuse nothing */
     bool measure;     /* fill the phases' times (each closed by glFinish) and the lengths of the lists */
-    const char *tree; /* how fbvh and bvh are built: "no-fit,cost-n,..." (README); borrowed for the call */
+    const char *tree; /* how the tree of fbvh, bvh and rays beyond the first is built: "no-fit,cost-n,..."
+                         (README); borrowed for the call */
     int secant_steps; /* most steps of the solver secant; 0: 16 */
     bool counters;    /* of fbvh and bvh: count a ray's work, see mns_image.work and mns_stats */
     size_t max_pool_nodes; /* 0: what the driver allows; fewer makes the frame be drawn in more tiles */

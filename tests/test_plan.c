@@ -525,6 +525,29 @@ static void tiles_are_neither_gathered_nor_shuffled(void **state)
     mns_field_destroy(field);
 }
 
+/* Whatever finds the first hit: how the tree is built that carries the rays after it can be said, where there
+ * are any. */
+static void the_tree_of_later_rays_is_built_as_told(void **state)
+{
+    (void)state;
+    static const mns_method methods[] = {MNS_METHOD_LIST, MNS_METHOD_TILE};
+    scene s = {"told", .desc = {SCENE_UNIT}};
+    mns_field *field = scene_field(&s);
+    for (size_t i = 0; i < 2; i++) {
+        const mns_options options = {.method = methods[i], .tree = "references=5"};
+        mns_look look = {FROM_A_SIDE, .effects = {.shadows = true}};
+        mns_plan *plan = NULL;
+        mns_error error;
+        assert_int_equal(mns_plan_create(field, NULL, &look, &options, NULL, &plan, &error), MNS_OK);
+        assert_true(plan->features & FEATURE_RAYS && plan->tree.references_a_ball == 5);
+        mns_plan_destroy(plan);
+        look.effects.shadows = false;
+        assert_int_equal(mns_plan_create(field, NULL, &look, &options, NULL, &plan, &error), MNS_ERROR_USAGE);
+        assert_non_null(strstr(error.text, "builds no tree without rays beyond the first"));
+    }
+    mns_field_destroy(field);
+}
+
 static void wrong_effects_are_refused(void **state)
 {
     (void)state;
@@ -624,6 +647,7 @@ int main(void)
         cmocka_unit_test(the_text_names_the_features),
         cmocka_unit_test(the_text_names_the_method_tile),
         cmocka_unit_test(tiles_are_neither_gathered_nor_shuffled),
+        cmocka_unit_test(the_tree_of_later_rays_is_built_as_told),
         cmocka_unit_test(wrong_effects_are_refused),
         cmocka_unit_test(the_text_tells_the_effects),
         cmocka_unit_test(the_same_inputs_give_the_same_plan),

@@ -159,7 +159,8 @@ static const option_row ROWS[] = {
      option_solver},
     {"secant-steps", 0, "N", "most steps of the solver secant (default 16)", option_secant_steps},
     {"tree", 0, "LIST",
-     "how fbvh and bvh are built: cost-n, no-fit, no-tight, no-discard, leaf-least=N, ... (README)",
+     "how fbvh, bvh and the tree of later rays are built: cost-n, no-fit, no-tight, no-discard, "
+     "leaf-least=N, ... (README)",
      option_tree},
     {"gather", 0, "NAME", "early-z (the default) or paper, the passes as published", option_gather},
     {"backend", 0, "NAME", "auto (the default: the first that starts), egl, osmesa or glfw", option_backend},

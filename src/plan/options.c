@@ -24,8 +24,8 @@ static mns_status check_options(const mns_options *options, mns_error *error)
                            options->secant_steps);
     if (options->counters && !tree)
         return status_fail(error, MNS_ERROR_USAGE, "options: only fbvh and bvh count a ray's work");
-    if (options->tree && *options->tree && !tree)
-        return status_fail(error, MNS_ERROR_USAGE, "options: only fbvh and bvh build a tree");
+    if (options->tree && *options->tree && options->method == MNS_METHOD_REFERENCE)
+        return status_fail(error, MNS_ERROR_USAGE, "options: reference has a tree of its own; leave tree");
     if (tree && (options->gather != MNS_GATHER_EARLY_Z || options->shuffle))
         return status_fail(error, MNS_ERROR_USAGE,
                            "options: a tree is not gathered: leave gather and shuffle, or take list");

@@ -2,6 +2,7 @@
  */
 #include "plan/plan.h"
 
+#include "base/status.h"
 #include "base/vec.h"
 
 void plan_tree_place(const mns_field *field, double origin[3])
@@ -34,7 +35,12 @@ mns_status plan_rays(mns_plan *plan, const mns_field *field, mns_error *error)
     if (plan->features & FEATURE_LIT && is_traced(plan)) plan->features |= FEATURE_RAYS;
     if (!(plan->features & FEATURE_RAYS)) {
         plan_leave_out(plan, tree ? "rays beyond the first" : "FBVH", "no secondary rays are asked for");
-        return MNS_OK;
+        if (tree || !plan->options.tree || !*plan->options.tree) return MNS_OK;
+        return status_fail(
+            error, MNS_ERROR_USAGE,
+            "options: %s builds no tree without rays beyond the first (shadows, mirrors and so "
+            "on); leave tree, or take fbvh or bvh",
+            mns_method_name(plan->options.method));
     }
     if (tree) return MNS_OK;
     mns_status status = plan_tree_options(&plan->options, &plan->limits, &plan->tree, error);
