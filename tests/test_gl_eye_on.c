@@ -2,11 +2,13 @@
  * one ball, where every ray's answer is known in closed form, and against the reference. */
 #include "render/render.h"
 #include "support/draw_fixture.h"
+#include "support/mesh_file.h"
 
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -91,11 +93,54 @@ static void no_certain_answer_differs_from_the_reference(void **state)
     draw_fixture_check(d);
 }
 
+/* A mesh does not tell on which side it is seen: of a floor through the ball what is seen inwards is dimmed
+ * on its way, and what is seen outwards is not. */
+static void a_mesh_is_seen_through_the_side_of_its_ray(void **state)
+{
+    draw_fixture *d = *state;
+    static const mns_light sun = {.kind = MNS_LIGHT_DIRECTIONAL, .direction = {1, 2, 1.5}};
+    mesh_path floor;
+    if (!mesh_is_built_in() || d->gl.backend == MNS_BACKEND_OSMESA) skip();
+    mesh_write(".obj", "v -3 0 -3\nv -3 0 3\nv 3 0 3\nv 3 0 -3\nf 1 2 3 4\n", floor);
+    const mns_mesh mesh = {.file = floor};
+    const mns_look look = {.lights = &sun,
+                           .light_count = 1,
+                           .meshes = &mesh,
+                           .mesh_count = 1,
+                           .effects = {.refractions = 2, .index = 1.3, .absorption = {1, 2, 3}}};
+    mns_field *field = ball();
+    const mns_view view = draw_view(eye, (const double[3]){0.8, -0.5, 0.3}, 120, WIDE, HIGH);
+    mns_image *drawn = draw_image(d, field, &view, &look, &(mns_options){.method = MNS_METHOD_FBVH});
+    mns_image *truth = draw_image(d, field, &view, &look, &(mns_options){.method = MNS_METHOD_REFERENCE});
+    int open = 0, off = 0, dimmed = 0, plain = 0;
+    for (int i = 0; i < WIDE * HIGH; i++) {
+        if (drawn->certain[i] * drawn->effects_certain[i] * truth->certain[i] * truth->effects_certain[i] !=
+            1) {
+            open++;
+            continue;
+        }
+        bool same = drawn->mesh[i] == truth->mesh[i];
+        for (int c = 0; c < 3; c++)
+            same = same && fabs((double)drawn->rgba[4 * i + c] - (double)truth->rgba[4 * i + c]) <= 3e-3;
+        off += !same;
+        if (truth->mesh[i] == 1)
+            *(truth->rgba[4 * i] > 1.1f * truth->rgba[4 * i + 2] ? &dimmed : &plain) += 1;
+    }
+    if (off || open > 40 || dimmed < 500 || plain < 500)
+        fail_msg("%d off, %d open; of the mesh %d dimmed, %d not", off, open, dimmed, plain);
+    mns_image_destroy(drawn);
+    mns_image_destroy(truth);
+    mns_field_destroy(field);
+    unlink(floor);
+    draw_fixture_check(d);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_ray_takes_the_side_just_after_its_start),
         cmocka_unit_test(no_certain_answer_differs_from_the_reference),
+        cmocka_unit_test(a_mesh_is_seen_through_the_side_of_its_ray),
     };
     return cmocka_run_group_tests_name("eye_on", tests, draw_fixture_setup, draw_fixture_teardown);
 }

@@ -37,6 +37,13 @@ static const mns_light far_lamps[LAMPS] = {
     {.kind = MNS_LIGHT_HEAD, .strength = 0.25},
     {.kind = MNS_LIGHT_AREA, .position = {0, 1, 0.5}, .radius = 1e23, .strength = 0.25}};
 
+/* Between balls, or around one: what stands behind a light, or in it, shades nothing. */
+static const mns_light near_lamps[LAMPS] = {
+    {.kind = MNS_LIGHT_POINT, .position = {1.1, 0.1, 0.3}},
+    {.kind = MNS_LIGHT_AREA, .position = {1.1, -0.6, 0.2}, .radius = 0.9},
+    {.kind = MNS_LIGHT_HEAD, .strength = 0.25},
+    {.kind = MNS_LIGHT_AREA, .position = {1.1, 0.3, -0.2}, .radius = 0.1}};
+
 #define SUN .lights = &sun, .light_count = 1
 
 typedef struct look_case {
@@ -268,14 +275,19 @@ static void samples_and_seeds_have_the_truths_rays(void **state)
     mns_field_destroy(field);
 }
 
-static void lights_may_be_endlessly_far(void **state)
+static void lights_may_be_endlessly_far_and_between_balls(void **state)
 {
     draw_fixture *d = *state;
     const mns_options options = {.method = MNS_METHOD_FBVH};
     look_case look = soft;
-    look.look.lights = far_lamps;
     mns_field *field = draw_generated("dense:500", MNS_KERNEL_DEFAULT);
+    look.look.lights = far_lamps;
     expect_truth(d, field, &small, &look, &options, 1e-4, 0, "far lamps");
+    mns_field_destroy(field);
+    static const double three[9] = {0, 0, 0, 2.2, 0, 0, 1.1, -0.75, 0};
+    field = draw_field(3, three, NULL, 1, NULL, MNS_KERNEL_DEFAULT);
+    look.look.lights = near_lamps;
+    expect_truth(d, field, &small, &look, &options, 1e-4, 0, "near lamps");
     mns_field_destroy(field);
 }
 
@@ -288,7 +300,7 @@ static void a_frame_is_lit_in_parts(void **state)
     size_t *block = &d->renderer->device.limits.max_storage_block, whole = *block;
     mns_image *at_once = draw_image(d, field, &small, &soft.look, &options);
     uint64_t rays = d->stats.effects_rays;
-    *block = 1 << 16;
+    *block = 1 << 17;
     mns_image *in_parts = draw_image(d, field, &small, &soft.look, &options);
     *block = whole;
     draw_expect_same(at_once, in_parts, "in parts");
@@ -441,7 +453,7 @@ int main(void)
         cmocka_unit_test(an_eye_inside_sees_light_too),
         cmocka_unit_test(colours_cel_and_samples_are_the_truths),
         cmocka_unit_test(samples_and_seeds_have_the_truths_rays),
-        cmocka_unit_test(lights_may_be_endlessly_far),
+        cmocka_unit_test(lights_may_be_endlessly_far_and_between_balls),
         cmocka_unit_test(a_frame_is_lit_in_parts),
         cmocka_unit_test(what_nobody_can_decide_is_told),
         cmocka_unit_test(a_map_stands_around_the_scene),

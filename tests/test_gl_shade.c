@@ -71,6 +71,30 @@ static void a_surface_that_faces_the_headlight_has_its_whole_colour(void **state
     mns_image_destroy(image);
 }
 
+/* The cosines of a pixel's normal with the light, the eye and, for shine, the way between. */
+typedef struct cosines {
+    double facing, eye, half;
+} cosines;
+
+static cosines cosines_at(const mns_image *image, size_t i, const double to_light[3])
+{
+    size_t row = i / WIDE, column = i % WIDE;
+    double x = (double)column + 0.5 - 0.5 * WIDE, y = 0.5 * HIGH - (double)row - 0.5;
+    double unit = 2 * tan(22.5 * 3.14159265358979323846 / 180) / HIGH;
+    double to_eye[3] = {-x * unit, -y * unit, 1}, half[3], length = 0, half_length = 0;
+    cosines of = {0, 0, 0};
+    for (int a = 0; a < 3; a++) length += to_eye[a] * to_eye[a];
+    for (int a = 0; a < 3; a++) half[a] = to_light[a] + to_eye[a] / sqrt(length);
+    for (int a = 0; a < 3; a++) half_length += half[a] * half[a];
+    for (size_t a = 0; a < 3; a++) {
+        double n = (double)image->normal[3 * i + a];
+        of.facing += n * to_light[a];
+        of.eye += n * to_eye[a] / sqrt(length);
+        of.half += n * half[a] / sqrt(half_length);
+    }
+    return of;
+}
+
 /* Lambert and Blinn-Phong by their formulas, at every pixel of the ball. */
 static void every_pixel_follows_the_formulas(void **state)
 {
@@ -82,25 +106,45 @@ static void every_pixel_follows_the_formulas(void **state)
     size_t hits = 0, dark = 0;
     for (size_t i = 0; i < (size_t)WIDE * HIGH; i++) {
         if (!isfinite(image->t[i])) continue;
-        size_t row = i / WIDE, column = i % WIDE;
-        double x = (double)column + 0.5 - 0.5 * WIDE, y = 0.5 * HIGH - (double)row - 0.5;
-        double unit = 2 * tan(22.5 * 3.14159265358979323846 / 180) / HIGH;
-        double to_eye[3] = {-x * unit, -y * unit, 1}, half[3], length = 0, facing = 0, shine = 0,
-               half_length = 0;
-        for (int a = 0; a < 3; a++) length += to_eye[a] * to_eye[a];
-        for (int a = 0; a < 3; a++) half[a] = to_light[a] + to_eye[a] / sqrt(length);
-        for (int a = 0; a < 3; a++) half_length += half[a] * half[a];
-        for (size_t a = 0; a < 3; a++) {
-            facing += (double)image->normal[3 * i + a] * to_light[a];
-            shine += (double)image->normal[3 * i + a] * half[a] / sqrt(half_length);
-        }
-        shine = facing > 0 ? 0.25 * pow(fmax(shine, 0), 10) : 0;
-        double value = linear(0.5) * (0.15 + 0.85 * fmax(facing, 0)) + shine;
+        cosines of = cosines_at(image, i, to_light);
+        double shine = of.facing > 0 ? 0.25 * pow(fmax(of.half, 0), 10) : 0;
+        double value = linear(0.5) * (0.15 + 0.85 * fmax(of.facing, 0)) + shine;
         expect_color(image, i, value, value, value, 1, 1e-4);
         hits++;
-        dark += facing <= 0;
+        dark += of.facing <= 0;
     }
     assert_true(hits > 300 && dark > 20);
+    mns_image_destroy(image);
+}
+
+/* Of cel shading too: bands of the cosine, shine where it is at least half its most, a contour below 0.22. */
+static void cel_bands_follow_the_formulas(void **state)
+{
+    const double to_light[3] = {0.6, 0.48, 0.64};
+    mns_look look = {.set = MNS_LOOK_COLOR,
+                     .color = {0.5, 0.5, 0.5},
+                     .light = MNS_LIGHT_DIRECTIONAL,
+                     .shading = MNS_SHADING_CEL,
+                     .shininess = 3,
+                     .cel_bands = 4};
+    for (int a = 0; a < 3; a++) look.light_direction[a] = to_light[a];
+    mns_image *image = draw_ball(*state, &look);
+    size_t black = 0, shining = 0, near = 0;
+    for (size_t i = 0; i < (size_t)WIDE * HIGH; i++) {
+        if (!isfinite(image->t[i])) continue;
+        cosines of = cosines_at(image, i, to_light);
+        double shine = of.facing > 0 ? pow(fmax(of.half, 0), 3) : 0, band = 4 * fmax(of.facing, 0);
+        bool contour = of.eye < 0.22;
+        black += contour, shining += shine > 0.5 && !contour;
+        if (fabs(of.eye - 0.22) < 1e-5 || fabs(shine - 0.5) < 1e-5 || fabs(band - rint(band)) < 1e-5) {
+            near += of.facing > 1e-5; /* where rounding may decide either way */
+            continue;
+        }
+        double value = linear(0.5) * (0.15 + 0.85 * fmin(floor(band), 3) / 3) + (shine > 0.5 ? 0.25 : 0);
+        if (contour) value = 0;
+        expect_color(image, i, value, value, value, 1, 1e-5);
+    }
+    assert_true(black > 20 && shining > 100 && near < 4);
     mns_image_destroy(image);
 }
 
@@ -371,6 +415,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_surface_that_faces_the_headlight_has_its_whole_colour),
         cmocka_unit_test(every_pixel_follows_the_formulas),
+        cmocka_unit_test(cel_bands_follow_the_formulas),
         cmocka_unit_test(a_surface_seen_from_inside_is_lit_too),
         cmocka_unit_test(the_background_is_premultiplied_by_its_alpha),
         cmocka_unit_test(elements_have_their_customary_colours),
