@@ -15,6 +15,7 @@ from common import CENTRE, camera, fail, machine, scene_path
 SIZE = os.environ.get("SIZE", "640x480")
 ONLY = os.environ.get("ONLY", "").split()  # scenes of the first table; none: all
 ROUNDS = 2  # of fbvh, which the goals are for; the others take their turn in the first
+YARDSTICK_ROUNDS = 5
 REPEAT = 5  # of which the first two may wait for a compiler
 REPEAT_SLOW = 3  # of frames of many seconds
 METHODS = ("list", "tile", "fbvh", "bvh")  # what finds the first hit; the tree of every ray after it is bvh's own, else the fitted one
@@ -142,7 +143,7 @@ def yardstick_times(program, name, file):
     x, y, z = CENTRE[kind]
     light = ["--light", f"point:{x + 2},{y + 3},{z + 2}", "--shadows"]
     times, renderer = {}, ""
-    for _ in range(ROUNDS):
+    for _ in range(YARDSTICK_ROUNDS):
         for mode, options in (("primary", []), ("shadow", light), ("mirror", [*light, *f"{MIRROR} 1".split()])):
             taken = times.setdefault(mode, {m: [] for m in ("yardstick", *OURS)})
             taken["yardstick"].append(limit_ms(path, kind, mode))
@@ -163,7 +164,7 @@ def print_yardstick(program):
             cost = [f"{(ms[mode][m] - ms[before][m]) / ms['primary'][m]:.2f}" if before else "" for m in ("yardstick", "fbvh")]
             told = "" if not before else "reached" if best <= MOST_OVER_YARDSTICK else "missed"
             rows.append([name, "cast" if mode == "primary" else mode, *(f"{v:.1f}" for v in ms[mode].values()), f"{best:.2f}", told, *cost])
-    print(f"{machine(renderer)}; {SIZE}, milliseconds of frames that stand still (the yardstick: tracing alone), medians of {ROUNDS} "
+    print(f"{machine(renderer)}; {SIZE}, milliseconds of frames that stand still (the yardstick: tracing alone), medians of {YARDSTICK_ROUNDS} "
           "rounds. A cost is over the frame above, in frames of one's own casting.\n")
     print("| scene | frame | yardstick | " + " | ".join(f"`{m}`" for m in OURS) + f" | least / yardstick | at most {MOST_OVER_YARDSTICK} | "
           "cost, yardstick | cost, `fbvh` |\n|-|-|-|" + "-|" * (len(OURS) + 4))
