@@ -1,6 +1,6 @@
 /* Two materials that a column blends: every method against the truth, the ends against either material alone,
  * and what is kept from draw to draw. */
-#include "support/draw_fixture.h"
+#include "support/light_fixture.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -11,9 +11,8 @@
 
 #include <cmocka.h>
 
-enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT, BALLS = 40 };
+enum { BALLS = 40 };
 
-static const mns_options truth = {.method = MNS_METHOD_REFERENCE};
 static const double eye[3] = {0.4, 0.6, 5}, at[3] = {0, 0, 0};
 
 /* ---- Scenes ---- */
@@ -90,34 +89,28 @@ static mns_look first_alone(mns_look look)
     return look;
 }
 
-static bool is_second(const draw_fixture *d)
-{
-    return d->gl.backend == MNS_BACKEND_OSMESA;
-}
-
 /* ---- The truth ---- */
 
+/* Of a term that `want` has: a blend traces what one of its ends does not. */
 static bool is_off(const float *got, const float *want, int i, double allowed)
 {
-    return want && !(got[i] == want[i] || fabs((double)got[i] - (double)want[i]) <= allowed);
+    return want && light_differs(got, want, i, allowed);
 }
 
 /* No pixel that both are sure of has another term or colour. */
 static void expect_close(const mns_image *got, const mns_image *want, const char *what)
 {
     int hits = 0, wrong = 0, off = 0, open = 0;
-    for (int i = 0; i < PIXELS; i++) {
+    for (int i = 0; i < LIGHT_PIXELS; i++) {
         hits += !isinf(want->t[i]);
-        if (want->effects_certain && got->effects_certain[i] * want->effects_certain[i] != 1) {
+        if (light_is_open(got, want, i)) {
             open++;
             continue;
         }
         wrong += is_off(got->shadow, want->shadow, i, 1e-5) ||
                  is_off(got->mirror_t, want->mirror_t, i, 1e-4) ||
                  is_off(got->refract_t, want->refract_t, i, 1e-4);
-        bool colored = false;
-        for (int c = 0; c < 4; c++) colored = colored || is_off(got->rgba, want->rgba, 4 * i + c, 4e-3);
-        off += colored;
+        off += light_colors_differ(got, want, i, 4e-3);
     }
     if (hits < 300 || wrong || off || open > hits / 20)
         fail_msg("%s: of %d hits %d open, %d wrong, %d of another colour", what, hits, open, wrong, off);
@@ -135,11 +128,11 @@ static void every_method_blends_as_the_truth(void **state)
         {"glass, fbvh", &glass, MNS_METHOD_FBVH},
     };
     draw_fixture *d = *state;
-    const mns_view view = draw_view(eye, at, 45, WIDTH, HEIGHT);
+    const mns_view view = draw_view(eye, at, 45, LIGHT_WIDTH, LIGHT_HEIGHT);
     mns_field *field = ring(-0.25, 1.25);
-    for (size_t i = 0; i < (is_second(d) ? 1 : sizeof cases / sizeof *cases); i++) {
+    for (size_t i = 0; i < (light_is_second(d) ? 1 : sizeof cases / sizeof *cases); i++) {
         const mns_options options = {.method = cases[i].method};
-        mns_image *want = draw_image(d, field, &view, cases[i].look, &truth);
+        mns_image *want = draw_image(d, field, &view, cases[i].look, &light_truth);
         mns_image *got = draw_image(d, field, &view, cases[i].look, &options);
         expect_close(got, want, cases[i].name);
         mns_image_destroy(want);
@@ -153,13 +146,13 @@ static void every_method_blends_as_the_truth(void **state)
 static void walks_that_wait_keep_their_materials(void **state)
 {
     draw_fixture *d = *state;
-    const mns_view view = draw_view(eye, at, 45, WIDTH, HEIGHT);
+    const mns_view view = draw_view(eye, at, 45, LIGHT_WIDTH, LIGHT_HEIGHT);
     const mns_options options = {.method = MNS_METHOD_FBVH, .root_steps = 1};
     mns_look look = glass;
     look.effects.occlusion_rays = 8;
-    if (is_second(d)) skip();
+    if (light_is_second(d)) skip();
     mns_field *field = ring(-0.25, 1.25);
-    mns_image *want = draw_image(d, field, &view, &look, &truth);
+    mns_image *want = draw_image(d, field, &view, &look, &light_truth);
     mns_image *got = draw_image(d, field, &view, &look, &options);
     expect_close(got, want, "one step");
     mns_image_destroy(want);
@@ -189,16 +182,16 @@ static void what_doubles_find_has_its_material(void **state)
                                  .uniform_radius = 0.9,
                                  .columns = &column,
                                  .column_count = 1};
-    const mns_view view = draw_view(eye, at, 30, WIDTH, HEIGHT);
+    const mns_view view = draw_view(eye, at, 30, LIGHT_WIDTH, LIGHT_HEIGHT);
     const mns_options options = {.method = MNS_METHOD_FBVH};
     mns_look look = mirrors;
     mns_field *field = NULL;
     mns_error error;
-    if (is_second(d)) skip();
+    if (light_is_second(d)) skip();
     look.effects.mirror = 0.75;
     look.blend.mirror = 0.125;
     if (mns_field_create(&desc, &field, &error)) fail_msg("%s", error.text);
-    mns_image *want = draw_image(d, field, &view, &look, &truth);
+    mns_image *want = draw_image(d, field, &view, &look, &light_truth);
     mns_image *got = draw_image(d, field, &view, &look, &options);
     expect_close(got, want, "a heap");
     mns_image_destroy(want);
@@ -213,10 +206,10 @@ static void what_doubles_find_has_its_material(void **state)
 static void the_ends_are_one_material_bit_for_bit(void **state)
 {
     draw_fixture *d = *state;
-    const mns_view view = draw_view(eye, at, 45, WIDTH, HEIGHT);
+    const mns_view view = draw_view(eye, at, 45, LIGHT_WIDTH, LIGHT_HEIGHT);
     const mns_look looks[] = {paint, mirrors, glass};
     mns_field *none = ring(-1, 0), *all = ring(1, 2);
-    for (size_t i = 0; i < (is_second(d) ? 1 : 3); i++)
+    for (size_t i = 0; i < (light_is_second(d) ? 1 : 3); i++)
         for (int method = 0; method < 2; method++) {
             const mns_options options = {.method = method ? MNS_METHOD_REFERENCE : MNS_METHOD_FBVH};
             const mns_look first = first_alone(looks[i]), second = second_alone(looks[i]);
@@ -242,11 +235,11 @@ static void the_ends_of_a_blend_are_the_materials(void **state)
                                  .uniform_radius = 2,
                                  .columns = &column,
                                  .column_count = 1};
-    const mns_view view = draw_view(eye, at, 45, WIDTH, HEIGHT);
+    const mns_view view = draw_view(eye, at, 45, LIGHT_WIDTH, LIGHT_HEIGHT);
     mns_look look = glass;
     look.color_by = NULL;
     for (int end = 0; end < 2; end++)
-        for (int method = 0; method < (is_second(d) ? 1 : 2); method++) {
+        for (int method = 0; method < (light_is_second(d) ? 1 : 2); method++) {
             const mns_options options = {.method = method ? MNS_METHOD_FBVH : MNS_METHOD_REFERENCE};
             const mns_look alone = end ? second_alone(look) : first_alone(look);
             mns_field *field = NULL;
@@ -271,9 +264,9 @@ static void another_range_is_sent_anew(void **state)
 {
     static const mns_method methods[] = {MNS_METHOD_TILE, MNS_METHOD_FBVH};
     draw_fixture *d = *state;
-    const mns_view view = draw_view(eye, at, 45, WIDTH, HEIGHT);
+    const mns_view view = draw_view(eye, at, 45, LIGHT_WIDTH, LIGHT_HEIGHT);
     mns_field *field = ring(0, 1);
-    for (int m = 0; m < (is_second(d) ? 1 : 2); m++) {
+    for (int m = 0; m < (light_is_second(d) ? 1 : 2); m++) {
         mns_options options = {.method = methods[m], .moved = true};
         mns_look look = paint;
         look.blend.range[0] = 0.25, look.blend.range[1] = 0.5;
@@ -283,7 +276,7 @@ static void another_range_is_sent_anew(void **state)
         mns_image *before = draw_image(d, field, &view, &other, &options);
         mns_image *again = draw_image(d, field, &view, &look, &options);
         draw_expect_same(again, fresh, "another range");
-        assert_true(memcmp(before->rgba, again->rgba, 4 * PIXELS * sizeof(float)) != 0);
+        assert_true(memcmp(before->rgba, again->rgba, 4 * LIGHT_PIXELS * sizeof(float)) != 0);
         look = first_alone(look); /* and with colours alone a ball has half the words */
         mns_image *one = draw_image(d, field, &view, &look, &options);
         options.moved = true;

@@ -1,7 +1,7 @@
 /* Solid meshes drawn on the GPU, against the truth's: which mesh is seen where, distances, terms and colours,
  * at every scale, inside the medium too; and nothing of them where there are none. */
 #include "render/render.h"
-#include "support/draw_fixture.h"
+#include "support/light_fixture.h"
 #include "support/mesh_file.h"
 
 #include <math.h>
@@ -15,9 +15,6 @@
 
 #include <cmocka.h>
 
-enum { WIDTH = 48, HEIGHT = 36, PIXELS = WIDTH * HEIGHT };
-
-static const mns_options truth = {.method = MNS_METHOD_REFERENCE};
 static const mns_light sun = {.kind = MNS_LIGHT_DIRECTIONAL, .direction = {1, 2, 1.5}};
 
 typedef struct files {
@@ -51,18 +48,7 @@ static void drop_files(const files *f)
     unlink(f->box);
 }
 
-static bool is_second(const draw_fixture *d)
-{
-    return d->gl.backend == MNS_BACKEND_OSMESA;
-}
-
 /* ---- Against the truth ---- */
-
-static bool is_off(const float *got, const float *want, int i, double allowed)
-{
-    if (!want) return got != NULL;
-    return !(got[i] == want[i] || fabs((double)got[i] - (double)want[i]) <= allowed);
-}
 
 /* Pixels that are open, wrong, and of another colour. */
 typedef struct tally {
@@ -84,26 +70,23 @@ static double term(const float *plane, int i)
 static tally compare(const mns_image *got, const mns_image *want, double length)
 {
     tally sum = {.open = 0};
-    for (int i = 0; i < PIXELS; i++) {
+    for (int i = 0; i < LIGHT_PIXELS; i++) {
         sum.seen[(int)want->mesh[i]]++;
-        if (got->certain[i] * got->effects_certain[i] * want->certain[i] * want->effects_certain[i] != 1) {
+        if (light_is_open(got, want, i)) {
             sum.open++;
             continue;
         }
-        bool wrong = got->mesh[i] != want->mesh[i] || is_off(got->t, want->t, i, length), off = false;
-        for (int c = 0; c < 3; c++) wrong = wrong || is_off(got->normal, want->normal, 3 * i + c, 1e-4);
-        wrong = wrong || is_off(got->shadow, want->shadow, i, 1e-5) ||
-                is_off(got->occlusion, want->occlusion, i, 1e-5) ||
-                is_off(got->mirror_t, want->mirror_t, i, length) ||
-                is_off(got->refract_t, want->refract_t, i, length);
-        for (int c = 0; c < 4; c++) off = off || is_off(got->rgba, want->rgba, 4 * i + c, 3e-3);
+        bool wrong = got->mesh[i] != want->mesh[i] || light_differs(got->t, want->t, i, length) ||
+                     light_terms_differ(got, want, i, length);
+        for (int c = 0; c < 3; c++)
+            wrong = wrong || light_differs(got->normal, want->normal, 3 * i + c, 1e-4);
         if (wrong)
             print_message("pixel %d: mesh %g, %g; t %.9g, %.9g; shadow %g, %g; mirrored %.9g, %.9g\n", i,
                           (double)got->mesh[i], (double)want->mesh[i], (double)got->t[i], (double)want->t[i],
                           term(got->shadow, i), term(want->shadow, i), term(got->mirror_t, i),
                           term(want->mirror_t, i));
         sum.wrong += wrong;
-        sum.off += off;
+        sum.off += light_colors_differ(got, want, i, 3e-3);
     }
     return sum;
 }
@@ -111,7 +94,7 @@ static tally compare(const mns_image *got, const mns_image *want, double length)
 static tally against_truth(draw_fixture *d, const mns_field *field, const mns_view *view,
                            const mns_look *look, const mns_options *options, double length)
 {
-    mns_image *want = draw_image(d, field, view, look, &truth);
+    mns_image *want = draw_image(d, field, view, look, &light_truth);
     mns_image *got = draw_image(d, field, view, look, options);
     tally sum = compare(got, want, length);
     mns_image_destroy(want);
@@ -139,7 +122,7 @@ static mns_field *three_balls(double size)
 static mns_view view_of(double size)
 {
     const double eye[3] = {0.5 * size, 0.8 * size, 2.2 * size}, at[3] = {0.1 * size, 0, 0};
-    return draw_view(eye, at, 45, WIDTH, HEIGHT);
+    return draw_view(eye, at, 45, LIGHT_WIDTH, LIGHT_HEIGHT);
 }
 
 static void meshes_are_lit_and_mirrored_at_every_scale(void **state)
@@ -163,11 +146,11 @@ static void meshes_are_lit_and_mirrored_at_every_scale(void **state)
             const mns_options options = {.method = method ? MNS_METHOD_TILE : MNS_METHOD_FBVH};
             snprintf(what, sizeof what, "size %g, method %d", size, method);
             expect_truth(d, field, &view, &look, &options, allowed(d) * size, 2, what);
-            if (is_second(d)) break;
+            if (light_is_second(d)) break;
         }
         mns_field_destroy(field);
         drop_files(&f);
-        if (is_second(d)) break;
+        if (light_is_second(d)) break;
     }
 }
 
@@ -177,7 +160,7 @@ static void a_mesh_in_glass_is_seen_through_it(void **state)
     draw_fixture *d = *state;
     static const double within[3] = {0.05, 0, 0};
     files f;
-    if (!mesh_is_built_in() || is_second(d)) skip();
+    if (!mesh_is_built_in() || light_is_second(d)) skip();
     write_files(&f, 1, within);
     mns_field *field = three_balls(1);
     const mns_options options = {.method = MNS_METHOD_FBVH};
@@ -194,7 +177,7 @@ static void a_mesh_in_glass_is_seen_through_it(void **state)
         fail_msg("%d open, %d wrong, %d off", sum.open, sum.wrong, sum.off);
     /* And from within: the eye beside the mesh. */
     const double eye[3] = {0.35, 0.1, 0.12}, at[3] = {0, 0, 0};
-    view = draw_view(eye, at, 60, WIDTH, HEIGHT);
+    view = draw_view(eye, at, 60, LIGHT_WIDTH, LIGHT_HEIGHT);
     sum = against_truth(d, field, &view, &look, &options, 1e-4);
     if (sum.wrong || sum.off > 8 || sum.open > 8)
         fail_msg("inside: %d open, %d wrong, %d off", sum.open, sum.wrong, sum.off);
@@ -227,7 +210,7 @@ static void a_mesh_of_many_triangles_is_walked_in_parts(void **state)
     draw_fixture *d = *state;
     static const double beside[3] = {0.7, 0, 0.1};
     files f;
-    if (!mesh_is_built_in() || is_second(d)) skip();
+    if (!mesh_is_built_in() || light_is_second(d)) skip();
     write_files(&f, 1, beside);
     unlink(f.floor);
     write_sheet(f.floor);
@@ -260,13 +243,13 @@ static void a_far_eye_is_certain_of_a_mesh(void **state)
         double away = k < 2 ? 1e5 : 3e3;
         const double eye[3] = {0.5 * away, 0.8 * away, 2.2 * away};
         const mns_options options = {.method = k & 1 ? MNS_METHOD_TILE : MNS_METHOD_FBVH};
-        const mns_view view = draw_view(eye, at, 45 / away, WIDTH, HEIGHT);
+        const mns_view view = draw_view(eye, at, 45 / away, LIGHT_WIDTH, LIGHT_HEIGHT);
         tally sum = against_truth(d, field, &view, &look, &options, 1e-4);
         if (sum.wrong || sum.off > 2 || sum.open > 2)
             fail_msg("%g away, %d: %d open, %d wrong, %d off", away, k & 1, sum.open, sum.wrong, sum.off);
         if (sum.seen[0] < 100 || sum.seen[1] < 100 || sum.seen[2] < 10)
             fail_msg("seen %d %d %d", sum.seen[0], sum.seen[1], sum.seen[2]);
-        if (is_second(d)) break;
+        if (light_is_second(d)) break;
     }
     mns_field_destroy(field);
     drop_files(&f);
@@ -278,7 +261,7 @@ static void a_floor_as_wide_as_floats_allow_is_met(void **state)
     draw_fixture *d = *state;
     static const double beside[3] = {0.7, 0.3, 0.1};
     files f;
-    if (!mesh_is_built_in() || is_second(d)) skip();
+    if (!mesh_is_built_in() || light_is_second(d)) skip();
     write_files(&f, 1, beside);
     unlink(f.floor);
     mesh_write(".obj", "v -3e9 -0.3 -3e9\nv -3e9 -0.3 3e9\nv 3e9 -0.3 3e9\nv 3e9 -0.3 -3e9\nf 1 2 3 4\n",
@@ -307,7 +290,7 @@ static void a_wide_ceiling_close_above_shadows(void **state)
     static const double away[3] = {5, -3, 0}, eye[3] = {0, 1, 1e-3}, at[3] = {0};
     const mns_light low = {.kind = MNS_LIGHT_DIRECTIONAL, .direction = {1, 0.18, 0.1}};
     files f;
-    if (!mesh_is_built_in() || is_second(d)) skip();
+    if (!mesh_is_built_in() || light_is_second(d)) skip();
     mesh_write(".obj",
                "v -1e5 0.02 -1e5\nv 1e5 0.02 -1e5\nv 1e5 0.02 1e5\nv -1e5 0.02 1e5\n"
                "v -0.1 0.02 -0.1\nv 0.1 0.02 -0.1\nv 0.1 0.02 0.1\nv -0.1 0.02 0.1\n"
@@ -317,7 +300,7 @@ static void a_wide_ceiling_close_above_shadows(void **state)
     f.mesh[0] = (mns_mesh){.file = f.floor};
     f.mesh[1] = (mns_mesh){.file = f.box};
     mns_field *field = draw_field(1, away, NULL, 0.6, NULL, MNS_KERNEL_POLY3);
-    const mns_view view = draw_view(eye, at, 14, WIDTH, HEIGHT);
+    const mns_view view = draw_view(eye, at, 14, LIGHT_WIDTH, LIGHT_HEIGHT);
     const mns_look look = {
         .lights = &low, .light_count = 1, .meshes = f.mesh, .mesh_count = 2, .effects = {.shadows = true}};
     tally sum = against_truth(d, field, &view, &look, &(mns_options){.method = MNS_METHOD_FBVH}, 1e-5);
@@ -353,7 +336,7 @@ static void of_meshes_in_one_plane_the_first_is_seen(void **state)
         if (sum.wrong || sum.off > 2 || sum.open > 4)
             fail_msg("rug %d: %d open, %d wrong, %d off", rug, sum.open, sum.wrong, sum.off);
         assert_true(rug ? sum.seen[1] > 100 && sum.seen[2] == 0 : sum.seen[1] > 100 && sum.seen[2] > 100);
-        if (is_second(d)) break;
+        if (light_is_second(d)) break;
     }
     mns_field_destroy(field);
     drop_files(&f);
@@ -366,7 +349,7 @@ static void what_changed_of_meshes_is_sent_anew(void **state)
     draw_fixture *d = *state;
     static const double beside[3] = {0.7, 0, 0.1}, elsewhere[3] = {-0.3, 0.2, -0.1};
     files f;
-    if (!mesh_is_built_in() || is_second(d)) skip();
+    if (!mesh_is_built_in() || light_is_second(d)) skip();
     write_files(&f, 1, beside);
     mns_field *fields[2] = {three_balls(1), draw_field(1, elsewhere, NULL, 0.6, NULL, MNS_KERNEL_POLY3)};
     const mns_view view = view_of(1);
@@ -408,7 +391,7 @@ static void what_no_mesh_hides_stays_as_it_is(void **state)
     mns_image *image = draw_image(d, field, &view, &look, &options);
     assert_true(d->renderer->effects.solids.buffer.id != 0 && d->stats.effects_rays == 0);
     int surface = 0, meshes = 0;
-    for (int i = 0; i < PIXELS; i++) {
+    for (int i = 0; i < LIGHT_PIXELS; i++) {
         meshes += image->mesh[i] > 0;
         if (image->mesh[i] > 0) {
             assert_true(image->t[i] < bare->t[i]);
@@ -427,7 +410,7 @@ static void what_no_mesh_hides_stays_as_it_is(void **state)
     close(file);
     if (mns_image_write(image, path, &error) || mns_image_read(path, &read, &error))
         fail_msg("%s", error.text);
-    assert_memory_equal(read->mesh, image->mesh, PIXELS * sizeof(float));
+    assert_memory_equal(read->mesh, image->mesh, LIGHT_PIXELS * sizeof(float));
     unlink(path);
     mns_image_destroy(read);
     /* The same again has the same bits; a file that went is told. */
@@ -435,7 +418,7 @@ static void what_no_mesh_hides_stays_as_it_is(void **state)
     draw_expect_same(image, again, "again");
     drop_files(&f);
     for (int method = 0; method < 2; method++) {
-        const mns_options *by = method ? &truth : &options;
+        const mns_options *by = method ? &light_truth : &options;
         assert_int_equal(mns_renderer_draw(d->renderer, field, &view, &look, by, d->frame, &error),
                          MNS_ERROR_IO);
         assert_non_null(strstr(error.text, f.floor));

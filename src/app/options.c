@@ -111,7 +111,8 @@ static mns_status wrong_word(const option_table *table, const char *word, mns_er
                     word, meant ? ": expected --" : "", meant ? meant : "", table->command);
 }
 
-/* A number after an option that takes its value by an equals sign alone would be read as a file's name. */
+/* A whole number after an option that takes its value by an equals sign alone would be read as a file's name.
+ */
 static mns_status check_loose_values(const option_table *table, int argc, char **argv, mns_error *error)
 {
     for (int i = 1; i + 1 < argc && strcmp(argv[i], "--") != 0; i++) {
