@@ -42,6 +42,9 @@ static void write_files(files *f, double size, const double at[3])
     f->mesh[1] = (mns_mesh){.file = f->box, .has_color = true, .color = {0.9, 0.3, 0.2}};
 }
 
+/* The sun, on both. */
+#define TWO_MESHES(f) .lights = &sun, .light_count = 1, .meshes = (f).mesh, .mesh_count = 2
+
 static void drop_files(const files *f)
 {
     unlink(f->floor);
@@ -137,10 +140,7 @@ static void meshes_are_lit_and_mirrored_at_every_scale(void **state)
         mns_field *field = three_balls(size);
         const mns_view view = view_of(size);
         const mns_look look = {
-            .lights = &sun,
-            .light_count = 1,
-            .meshes = f.mesh,
-            .mesh_count = 2,
+            TWO_MESHES(f),
             .effects = {.shadows = true, .reflections = 2, .mirror = 0.5, .occlusion_rays = 4}};
         for (int method = 0; method < 2; method++) {
             const mns_options options = {.method = method ? MNS_METHOD_TILE : MNS_METHOD_FBVH};
@@ -165,10 +165,7 @@ static void a_mesh_in_glass_is_seen_through_it(void **state)
     mns_field *field = three_balls(1);
     const mns_options options = {.method = MNS_METHOD_FBVH};
     const mns_look look = {
-        .lights = &sun,
-        .light_count = 1,
-        .meshes = f.mesh,
-        .mesh_count = 2,
+        TWO_MESHES(f),
         .effects = {
             .reflections = 1, .refractions = 4, .index = 1.4, .absorption = {1, 2, 3}, .occlusion_rays = 2}};
     mns_view view = view_of(1);
@@ -218,10 +215,7 @@ static void a_mesh_of_many_triangles_is_walked_in_parts(void **state)
     const mns_options options = {.method = MNS_METHOD_FBVH};
     const mns_view view = view_of(1);
     const mns_look look = {
-        .lights = &sun,
-        .light_count = 1,
-        .meshes = f.mesh,
-        .mesh_count = 2,
+        TWO_MESHES(f),
         .effects = {
             .shadows = true, .reflections = 1, .mirror = 0.5, .occlusion_rays = 64, .occlusion_reach = 4}};
     expect_truth(d, field, &view, &look, &options, 1e-5, 2, "a sheet");
@@ -269,11 +263,7 @@ static void a_floor_as_wide_as_floats_allow_is_met(void **state)
     mns_field *field = three_balls(1);
     const mns_view view = view_of(1);
     const mns_options options = {.method = MNS_METHOD_FBVH};
-    const mns_look look = {.lights = &sun,
-                           .light_count = 1,
-                           .meshes = f.mesh,
-                           .mesh_count = 2,
-                           .effects = {.occlusion_rays = 8, .occlusion_reach = 4}};
+    const mns_look look = {TWO_MESHES(f), .effects = {.occlusion_rays = 8, .occlusion_reach = 4}};
     tally sum = against_truth(d, field, &view, &look, &options, 1e-2);
     if (sum.wrong || sum.off || sum.open > 30)
         fail_msg("%d open, %d wrong, %d off", sum.open, sum.wrong, sum.off);
@@ -354,11 +344,7 @@ static void what_changed_of_meshes_is_sent_anew(void **state)
     mns_field *fields[2] = {three_balls(1), draw_field(1, elsewhere, NULL, 0.6, NULL, MNS_KERNEL_POLY3)};
     const mns_view view = view_of(1);
     const mns_options options = {.method = MNS_METHOD_FBVH};
-    const mns_look look = {.lights = &sun,
-                           .light_count = 1,
-                           .meshes = f.mesh,
-                           .mesh_count = 2,
-                           .effects = {.shadows = true, .reflections = 1, .mirror = 0.5}};
+    const mns_look look = {TWO_MESHES(f), .effects = {.shadows = true, .reflections = 1, .mirror = 0.5}};
     for (int k = 0; k < 3; k++) {
         const char *const what[] = {"at first", "other colours", "another field"};
         if (k == 1) f.mesh[1].color[1] = 0.8, f.mesh[0].has_color = true, f.mesh[0].color[2] = 0.7;

@@ -283,15 +283,15 @@ static void how_many_lie_in_one_place_does_not_matter(void **state)
         solid_hit hit = solid_trace(&set, &ray);
         solid_set_free(&set);
         assert_true(hit.hit);
-        size_t first = count, seen = 0;
+        size_t first = count, seen = 0, at[5];
         bool is_told = true;
         for (size_t i = 0; i < count; i++) {
             bool hidden = false;
             for (size_t k = 0; k < count; k++) hidden = hidden || is_behind(&one[i], &one[k]);
             if (hidden) continue;
-            seen++;
             if (first == count) first = i;
-            is_told = is_told && in_one_place(&one[i], &one[first]);
+            for (size_t k = 0; k < seen; k++) is_told = is_told && in_one_place(&one[i], &one[at[k]]);
+            at[seen++] = i;
         }
         certain += hit.certain, doubtful += !hit.certain, chosen += hit.certain && seen > 1;
         if (hit.certain && (!is_told || hit.mesh != first))

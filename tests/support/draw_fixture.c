@@ -122,6 +122,15 @@ void draw_expect_same(const mns_image *a, const mns_image *b, const char *what)
     expect_plane(a->normal, b->normal, pixels, 3, "normal", what);
     expect_plane(a->certain, b->certain, pixels, 1, "certain", what);
     expect_plane(a->rgba, b->rgba, pixels, 4, "colour", what);
+    const struct {
+        const char *name;
+        const float *a, *b;
+    } terms[] = {
+        {"shadow", a->shadow, b->shadow},     {"occlusion", a->occlusion, b->occlusion},
+        {"mirror", a->mirror_t, b->mirror_t}, {"refraction", a->refract_t, b->refract_t},
+        {"mesh", a->mesh, b->mesh},           {"certain effects", a->effects_certain, b->effects_certain}};
+    for (size_t i = 0; i < sizeof terms / sizeof *terms; i++)
+        if (terms[i].a && terms[i].b) expect_plane(terms[i].a, terms[i].b, pixels, 1, terms[i].name, what);
 }
 
 size_t draw_count_hits(const mns_image *image)

@@ -39,7 +39,7 @@ mns_field *draw_field(size_t count, const double *position, const double *radius
 /* A view from eye to look_at, fov in degrees. */
 mns_view draw_view(const double eye[3], const double look_at[3], double fov, int width, int height);
 
-/* All planes and the colours are the same, bit for bit; `what` is named on failure. */
+/* All planes that both have and the colours are the same, bit for bit; `what` is named on failure. */
 void draw_expect_same(const mns_image *a, const mns_image *b, const char *what);
 size_t draw_count_hits(const mns_image *image);
 
